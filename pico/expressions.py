@@ -14,6 +14,14 @@ from functools import cache
 from typing import Any, Literal
 
 Kind = Literal["number", "bool", "text", "list", "numbers", "texts", "any"]
+RESERVED = frozenset(  # words, then types
+    (
+        *("as", "break", "const", "continue", "else", "false", "for", "function", "if", "import", "in", "let", "loop"),
+        *("namespace", "null", "package", "return", "true", "var", "void", "while"),
+        *("bool", "bytes", "double", "dyn", "int", "list", "map", "null_type", "string", "type", "uint"),
+    )
+)
+"""Words of the language, and its types: no name of a value."""
 MOST_SOURCE = 4096
 """Bytes that the source of an expression may have."""
 

@@ -42,6 +42,7 @@ def list_(context: typer.Context) -> None:
     session = Session.of(context)
     recipes = Recipes(session.bench())
     session.show(table, recipes.listed(), recipes.cut_short())
+    session.tell(recipes.broken)
 
 
 @app.command()

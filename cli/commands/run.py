@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -31,7 +32,7 @@ Given = Annotated[
     typer.Option("-p", "--param", metavar="NAME=VALUE", help="A parameter, with its unit or without; may be repeated."),
 ]
 Until = Annotated[str, typer.Option("--until", metavar="STEP", help="Stop before this step: `3`, `3[2].1`.")]
-Resume = Annotated[bool, typer.Option("--resume", help="Go on with the run that was cut short last.")]
+Resume = Annotated[bool, typer.Option("--resume", help="Go on with what was cut short last, of RECIPE if named.")]
 JUnit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write JUnit XML to FILE.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the steps as far as they are known; move nothing.")]
 Unattended = Annotated[
@@ -68,33 +69,31 @@ def run(
     from pico.recipes.recipes import Recipes
 
     session = Session.of(context)
-    if (recipe is None) != resume:
+    if recipe is None and not resume:
         hint = "`pico run RECIPE`, or `pico run --resume` for the one that was cut short"
         raise PicoError(error("usage", "name a recipe, or say --resume", hint=hint))
+    if junit:
+        _require_place(session.folder / junit)
     if resume and (seed is not None or given):
         text = "what was cut short goes on with the world and the parameters that it began with"
         raise PicoError(error("usage", text, hint="`pico run --resume` takes neither --seed nor -p"))
     bench = session.bench(fidelity, writing=not dry_run)
     recipes = Recipes(bench)
     if resume:
-        log = recipes.unended()
-        found = recipes.taken_up(log)
-        if dry_run:
-            ahead = recipes.ahead(found, log.about.arguments, log)
-            session.show(view, found, ahead)
-            session.report(ahead.diagnostics)
-            return int(ahead.exit_code)
-        alone = _alone(session, recipes, found, log.about.arguments, unattended)
-        return _carry_out(session, recipes, found, log, until, auto_approve, alone, junit)
+        return _go_on(session, recipes, recipe, dry_run, until, auto_approve, unattended, junit)
     assert recipe is not None
     found = recipes.read(recipe)
     arguments = recipes.arguments(found, _pairs(given or []))
+    if until:
+        recipes.require_step(found, until)
     with waiting("Planning what is known in advance"):
         ahead = recipes.ahead(found, arguments)
     if dry_run or ahead.diagnostics:
         session.show(view, found, ahead)
         session.report(ahead.diagnostics)
         return int(ahead.exit_code)
+    if until:
+        recipes.require_step(found, until, ahead)
     alone = _alone(session, recipes, found, arguments, unattended)
     if not _agreed(session, found, ahead, auto_approve, seed):
         session.say("Nothing was done.")
@@ -104,10 +103,38 @@ def run(
     return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone, junit)
 
 
+def _go_on(
+    session: Session, recipes: Recipes, named: str | None, dry_run: bool, until: str, auto_approve: bool,
+    unattended: bool, junit: Path | None,
+) -> int:  # fmt: skip
+    """Go on with what was cut short; where others changed the bench since, only once a person said so."""
+    log = recipes.unended(Path(named).stem if named else None)
+    found = recipes.taken_up(log)
+    if until:
+        recipes.require_step(found, until)
+    if dry_run:
+        ahead = recipes.ahead(found, log.about.arguments, log)
+        session.show(view, found, ahead)
+        session.report(ahead.diagnostics)
+        return int(ahead.exit_code)
+    alone = _alone(session, recipes, found, log.about.arguments, unattended)
+    if changed := recipes.changed_since(log):
+        session.tell([replace(d, severity="warning") for d in changed])
+        if auto_approve or not _attended(session):
+            text = f"the bench is not as {found.name} left it when it was cut short"
+            hint = "`pico undo` takes back the last run; at a terminal, without -y, `pico run --resume` asks"
+            raise PicoError(
+                [*(changed if session.json else ()), error("bench-changed", text, hint=hint)], ExitCode.STALE
+            )
+    return _carry_out(session, recipes, found, log, until, auto_approve, alone, junit)
+
+
 def _alone(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], said: bool) -> bool:
     """Return whether nobody is there: that was said, or no terminal is, and the recipe states something of that. Raises
     PicoError where it must not begin so now."""
     alone = said or (recipe.unattended is not None and not _attended(session))
+    if not _attended(session):
+        recipes.require_alone(recipe)
     if alone:
         session.tell(recipes.require_unattended(recipe, arguments))
     return alone
@@ -162,19 +189,31 @@ def _carry_out(
         how["steer"] = lambda jog: steer(session, recipes.bench, jog, None, None)
     began = time.monotonic()
     outcome = recipes.run(recipe, log, watching, **how)
-    if junit:
-        tried = Rehearsed.of(recipe.name, outcome, time.monotonic() - began)
-        write_whole(session.folder / junit, in_junit([tried], recipes.bench.setup.lab.name).encode())
+    took = time.monotonic() - began
     if session.json:
         session.document(view.outcome_data(outcome, recipe))
     else:
         session.say(view.outcome(outcome, recipe))
     session.tell(outcome.diagnostics)
+    if junit:
+        tried = Rehearsed.of(recipe.name, outcome, took)
+        write_whole(session.folder / junit, in_junit([tried], recipes.bench.setup.lab.name).encode())
     return int(outcome.exit_code)
+
+
+def _require_place(path: Path) -> None:
+    """Raise PicoError, before anything moves, where no file can be at a path."""
+    if path.is_dir() or not path.parent.is_dir():
+        why = "it is a folder" if path.is_dir() else "there is no such folder"
+        raise PicoError(error("unwritable", f"can't write {path}: {why}", hint="a file in a folder that is there"))
 
 
 def _pairs(words: list[str]) -> dict[str, str]:
     for word in words:
         if "=" not in word:
             raise PicoError(error("usage", f"-p takes NAME=VALUE, not `{word[:40]}`", hint="`-p tilt='30 deg'`"))
-    return dict(word.split("=", 1) for word in words)
+    pairs = [(name.strip(), value) for name, value in (word.split("=", 1) for word in words)]
+    names = [name for name, _ in pairs]
+    if twice := next((name for name in names if names.count(name) > 1), None):
+        raise PicoError(error("usage", f"-p gives {twice[:40]} twice", hint="keep one of the two"))
+    return dict(pairs)

@@ -160,7 +160,13 @@ def _export_run(session: Session, form: Literal["csv", "documents"], run: str | 
     else:
         text = "".join(f"{json.dumps(pair)}\n" for pair in documents(found, units_of(bench.setup)))
     if out is None or str(out) == "-":
-        session.say(text.removesuffix("\n"))
+        if not session.json:
+            session.say(text.removesuffix("\n"))
+        for line in text.splitlines() if session.json and form == "documents" else ():
+            session.document(json.loads(line))
+        if session.json and form == "csv":
+            table = [row.flat for row in rows(found.trace)]
+            session.document({"schema": "pico.exported/v1", "run": found.document.id, "as": form, "rows": table})
         return
     write_whole(session.folder / out, text.encode())
     session.show(exported, found.document.id, form, out)

@@ -10,14 +10,14 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 from datetime import datetime
 from types import MappingProxyType
-from typing import Literal
+from typing import Literal, get_args
 
 from pico.bench.aligned import stands as goals_stand
 from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.edge.link.opening import remembered
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
@@ -97,6 +97,9 @@ class Commits:
         other has yet. Raises PicoError: for edits that were never applied, nothing to commit, and what git refuses;
         exit code LOCKED where it would capture while somebody moves the bench.
         """
+        if mode not in get_args(CommitMode):
+            hint = did_you_mean(str(mode)[:40], get_args(CommitMode))
+            raise PicoError(error("request", f"there is no commit mode `{str(mode)[:40]}`", hint=hint))
         if mode == "planned":
             from pico.history.merge.checked import overlapping
 

@@ -128,6 +128,8 @@ class Opened:
 
     def close(self) -> None:
         """Let go of the edge and end its thread; one left busy by Ctrl-C is not waited for."""
+        if self.thread.elsewhere:  # it is the other process's to close
+            return
         if self._edge is not None and not self.thread.left_busy:
             self.wait(self._edge.close())
         self._edge = None

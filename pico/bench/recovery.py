@@ -53,7 +53,7 @@ class Recovery:
         if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
-        began = _document(memory, last)
+        began = document_of(memory, last)
         if steered := next((op for op in began.operations if op.primitive == "teleoperate"), None):
             raise PicoError(_steered(steered.component, steered.robot))
         if began.open:
@@ -89,12 +89,12 @@ class Recovery:
         refuse_in_use(self.opened)
         moving = memory.moving()
         runs = [run for run in reversed(memory.runs()) if run.run in moving]
-        last = next((n for n, run in enumerate(runs) if _document(memory, run).target.cause != "recover"), None)
+        last = next((n for n, run in enumerate(runs) if document_of(memory, run).target.cause != "recover"), None)
         if last is None:
             raise PicoError(_no_run())
         self._as_before(memory)
-        done = {one for run in runs[: last + 1] for one in _begun(memory, run)}
-        before, held = _before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
+        done = {one for run in runs[: last + 1] for one in begun_by(memory, run)}
+        before, held = state_before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
         looked = replace(self.opened.observe(), aligned=None)  # numbers come back, whatever light says
         seen = self._emptied(looked)
         live = live_state(self.opened.setup, seen)
@@ -129,7 +129,7 @@ class Recovery:
     def _as_before(self, memory: Memory) -> None:
         """Move the bench in the fidelity of the last run, unless somebody asked for another."""
         if not self.opened.asked and (last := memory.last()):
-            self.opened.suit(_document(memory, last))
+            self.opened.suit(document_of(memory, last))
 
     def settle(self) -> tuple[Diagnostic, ...]:
         """Record what became of operations that a killed run had begun, though there is nothing left to move, and have
@@ -190,7 +190,7 @@ def _recorded(began: Plan, last: RunRecord) -> Diagnostic:
 
 def _goes_on(memory: Memory) -> str:
     """Return what goes on with a run that was cut short, where hands were only emptied after it."""
-    before = [(run, _document(memory, run).target) for run in memory.runs()]
+    before = [(run, document_of(memory, run).target) for run in memory.runs()]
     run, target = next(((r, t) for r, t in reversed(before) if t.cause != "recover"), before[-1])
     if run.outcome == "done" or target.cause not in (None, "checkout"):
         return "`pico plan` shows what differs now"
@@ -198,21 +198,22 @@ def _goes_on(memory: Memory) -> str:
     return f"`{' '.join(filter(None, words))}` goes on with {run.run}, which was cut short before that"
 
 
-def _begun(memory: Memory, run: RunRecord) -> Iterator[tuple[str, str]]:
-    """Yield the components with their tunables that the operations change which a run began."""
+def begun_by(memory: Memory, run: RunRecord, *, ended: bool = True) -> Iterator[tuple[str, str]]:
+    """Yield the components with their tunables that the operations change which a run began; without those that it
+    `ended`, where that is False."""
     records = memory.records(run=run.run)
-    begun = {r.key for r in records if r.kind == "started"}
+    begun = {r.key for r in records if r.kind == "started"} - {r.key for r in records if r.kind == "done" and not ended}
     for record in records:
         if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
             yield from touched_by(record.component, record.data["arguments"])
 
 
-def _before(
+def state_before(
     setup: Setup, memory: Memory, runs: Sequence[RunRecord], touched: Collection[str]
 ) -> tuple[LabState, list[str]]:
     """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
     a hand held then: they are where the run before found them."""
-    states = (state_from_json(setup.lab.name, _document(memory, run).base.state) for run in runs)
+    states = (state_from_json(setup.lab.name, document_of(memory, run).base.state) for run in runs)
     parts = dict(next(states).components)
     held = [name for name in sorted(touched) if name not in parts]
     for state in states:
@@ -293,7 +294,8 @@ def _left_out(
             yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
 
 
-def _document(memory: Memory, run: RunRecord) -> Plan:
+def document_of(memory: Memory, run: RunRecord) -> Plan:
+    """Return the plan that a run began with; raises PicoError where it was not kept."""
     text = memory.document(run.run)
     if text is None:
         raise PicoError(error("no-plan", f"the journal did not keep the plan of the run {run.run}", hint="`pico plan`"))

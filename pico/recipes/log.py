@@ -10,7 +10,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -20,15 +20,24 @@ from pico.disk import unwritable
 from pico.model.record import digest
 
 SCHEMA = "pico.recipe_run/v1"
+UNWRITTEN = "recipe-unwritten"
+"""The code of what is said where a log can't be written."""
+
+
+Checked = tuple[str | None, str | None]
+"""The branch and the commit that are checked out; None for a detached head, and outside of Git."""
 
 
 @dataclass
 class Logged:
-    """What is known of a step that acts: the digest of what it was `given`, the `head` commit when it first began, the
-    `runs` that it began, and what it `told`, None while it has not ended."""
+    """What is known of a step that acts: the digest of what it was `given`, its `kind`, the `head` commit when it first
+    began, the `runs` that it began, and what it `told`, None while it has not ended. `at`: the branch and the commit
+    that were checked out when it was last heard of, None where an older version did not write them."""
 
     given: str
     head: str | None = None
+    kind: str = ""
+    at: Checked | None = None
     runs: list[str] = field(default_factory=list)
     told: Mapping[str, Any] | None = None
 
@@ -83,15 +92,16 @@ class Log:
             raise PicoError(error("recipe-log", f"{path} can't be read: {exc}", hint=hint)) from exc
         return cls(path, About(**known, ended=ended), steps, times)
 
-    def begun(self, path: str, given: Any, head: str | None) -> Logged:
-        """Note that a step begins; return what is known of it, which is what it was where it began before.
+    def begun(self, path: str, given: Any, at: Checked, kind: str = "") -> Logged:
+        """Note that a step begins, where `at` is checked out; return what is known of it: where it began before, what
+        was known then.
 
         Raises PicoError where it was given something else then: the recipe can't be taken up.
         """
         known, content = self.steps.get(path), digest(given)
         if known is None:
-            known = self.steps[path] = Logged(content, head)
-            self._write({"step": path, "given": content, "head": head})
+            known = self.steps[path] = Logged(content, at[1], kind, at)
+            self._write({"step": path, "given": content, "head": at[1], "branch": at[0], "kind": kind})
         elif known.given != content:
             text = f"step {path} is not what it was when this recipe was cut short"
             raise PicoError(error("recipe-changed", text, hint="begin it anew, without --resume"))
@@ -102,10 +112,10 @@ class Log:
         self.steps[path].runs.append(run)
         self._write({"step": path, "run": run})
 
-    def told(self, path: str, result: Mapping[str, Any]) -> None:
-        """Note what came of a step."""
-        self.steps[path].told = result
-        self._write({"step": path, "told": result, "digest": digest(result)})
+    def told(self, path: str, result: Mapping[str, Any], at: Checked) -> None:
+        """Note what came of a step, and what is checked out after it."""
+        self.steps[path].told, self.steps[path].at = result, at
+        self._write({"step": path, "told": result, "digest": digest(result), "head": at[1], "branch": at[0]})
 
     def taken_up(self) -> int:
         """Note that the run goes on after it was cut short; return how often it has by now."""
@@ -128,8 +138,9 @@ class Log:
                 file.flush()
                 os.fsync(file.fileno())
         except OSError as exc:
-            what = f"{self.path} can't be written"
-            raise PicoError(unwritable(self.path, exc, what=what, code="recipe-log")) from exc
+            found = unwritable(self.path, exc, what=f"{self.path} can't be written", code=UNWRITTEN)
+            hint = f"{found.hint or 'mend that'}; `pico run --resume` goes on"
+            raise PicoError(replace(found, hint=hint)) from exc
 
 
 def folder(root: Path) -> Path:
@@ -144,13 +155,17 @@ def logs(root: Path) -> list[Path]:
 
 def _take(steps: dict[str, Logged], line: Mapping[str, Any]) -> None:
     if "given" in line:
-        steps[line["step"]] = Logged(line["given"], line.get("head"))
+        steps[line["step"]] = Logged(line["given"], line.get("head"), line.get("kind", ""), _checked(line))
     elif "run" in line:
         steps[line["step"]].runs.append(line["run"])
     elif "told" in line:
         if digest(line["told"]) != line["digest"]:
             raise ValueError(f"what step {line['step']} told was changed")
-        steps[line["step"]].told = line["told"]
+        steps[line["step"]].told, steps[line["step"]].at = line["told"], _checked(line)
+
+
+def _checked(line: Mapping[str, Any]) -> Checked | None:
+    return (line["branch"], line["head"]) if "branch" in line else None
 
 
 def _ends_line(path: Path) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
-from pico.expressions import ExpressionError, Kind
+from pico.expressions import RESERVED, ExpressionError, Kind
 from pico.kernels.measured import units_by
 from pico.kernels.pipeline import source_of
 from pico.manifest.text.names import name_problem
@@ -190,7 +190,7 @@ class Reader:
         try:
             if "step" in given:
                 return literal(spaced(first, last, given["step"].literal))
-            return literal(even(first, last, int(given["count"].literal)))
+            return literal(even(first, last, given["count"].literal))
         except ValueError as exc:
             return self.wrong(node, "range", f"{what}: {exc}")
 
@@ -353,6 +353,8 @@ class Reader:
             self.wrong(node, "name", f"`{word[:40]}` is no name: {problem}")
         elif word in scope.bench:
             self.wrong(node, "name", f"`{word}` is a component of {self.setup.lab.name}", "give the value another name")
+        elif word in RESERVED:
+            self.wrong(node, "name", f"`{word}` is a word of expressions", f"give the value another name, `{word}_`")
         elif word in function_names():
             self.wrong(node, "name", f"`{word}` is a function of expressions", "give the value another name")
         else:

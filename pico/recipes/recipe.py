@@ -216,6 +216,25 @@ def blocks(step: Step) -> Sequence[tuple[str, tuple[Step, ...]]]:
     return ()
 
 
+def paths(steps: Iterable[Step], at: str = "") -> Iterator[str]:
+    """Yield the paths that steps and those within them have when they are run, without the turns of loops."""
+    for step in steps:
+        path = at + step.at.rpartition(".")[2]
+        yield path
+        if isinstance(step, Scan):
+            yield from (f"{path}.set", f"{path}.measure")
+        if isinstance(step, Call) and step.recipe is not None:
+            yield from paths_of(step.recipe, f"{path}.")
+        for name, inner in blocks(step):
+            yield from paths(inner, f"{path}.else." if name == "else" else f"{path}.")
+
+
+def paths_of(recipe: Recipe, at: str = "") -> Iterator[str]:
+    """Yield the paths of all steps of a recipe, and of those that it calls, without the turns of loops."""
+    yield from paths(recipe.steps, at)
+    yield from paths(recipe.finally_, f"{at}finally.")
+
+
 def every(steps: Iterable[Step]) -> Iterator[Step]:
     """Yield steps and those within them, in the order of the text; not those of recipes that are called."""
     for step in steps:

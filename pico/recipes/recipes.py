@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,8 +17,10 @@ from pico.recipes.log import About, Log, logs
 from pico.recipes.parameters import given_values
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading import read_recipe
-from pico.recipes.recipe import Recipe
+from pico.recipes.recipe import Recipe, paths_of
 from pico.recipes.running import Outcome, Watching, run_recipe
+from pico.recipes.taken_up import otherwise
+from pico.recipes.unattended import asking
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -48,6 +51,7 @@ class Recipes:
         self.texts: dict[str, bytes] = {}
         self.kept: Mapping[str, str] = past or {}
         self.past = past is not None
+        self.broken: list[Diagnostic] = []
 
     def names(self) -> tuple[str, ...]:
         """Return the recipes of the lab by name: files of its folder `recipes`, without their ending."""
@@ -119,6 +123,26 @@ class Recipes:
         hint = f"a bench that is served outlives it: `python -m pico.edge.link.server {self.bench.root.name}`"
         return (warning("unattended", text, hint=hint),)
 
+    def require_step(self, recipe: Recipe, path: str, ahead: Foreseen | None = None) -> None:
+        """Raise PicoError where a recipe has no step of this path (`3[2].1`), as far as that is known in advance."""
+        known = list(paths_of(recipe))
+        there = re.sub(r"\[\d+\]", "", path) in known
+        if there and "[" in path and ahead is not None and ahead.whole:
+            turns = {f"{e.path}[{e.turn}]" if e.turn else e.path for e, _ in ahead.steps}
+            there = any(one == path or one.startswith((f"{path}.", f"{path}[")) for one in turns)
+        if not there:
+            hint = (
+                did_you_mean(path[:40], known)
+                if len(known) < 10
+                else f"such as `{known[len(known) // 2]}`: `--dry-run` shows them"
+            )
+            raise PicoError(error("no-step", f"{recipe.name} has no step `{path[:40]}`", hint=hint))
+
+    def require_alone(self, recipe: Recipe) -> None:
+        """Raise PicoError where nobody is there and a step waits for a person."""
+        if found := asking(recipe):
+            raise PicoError(found)
+
     def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:
         """Begin a run of a recipe with the values of all its parameters."""
         from pico.edge.running import new_run_id
@@ -129,31 +153,43 @@ class Recipes:
         return Log.begin(self.bench.root, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
 
     def cut_short(self) -> tuple[About, ...]:
-        """Return the runs of recipes that have no end, the latest first."""
-        found = (Log.read(path).about for path in logs(self.bench.root)[:MOST_LISTED])
+        """Return the runs of recipes that have no end, the latest first; a log that can't be read is left out."""
+        found = (log.about for log in self._logs(MOST_LISTED))
         return tuple(about for about in found if not about.ended)
 
-    def unended(self, run: str | None = None) -> Log:
-        """Return the run of a recipe that was cut short last, or the one named; raises PicoError where there is none,
-        or it has ended."""
-        for path in logs(self.bench.root):
-            if run is not None and not path.stem.startswith(run):
-                continue
-            log = Log.read(path)
-            if not log.about.ended:
+    def unended(self, word: str | None = None) -> Log:
+        """Return the run of a recipe that was cut short last, of the recipe or the id that is named.
+        Raises PicoError where there is none, it has ended, or its log can't be read."""
+        for log in self._logs():
+            if word in (None, log.about.name, Path(log.about.path).stem) and not log.about.ended:
                 return log
-            if run is not None:
+            if word is not None and log.about.id.startswith(word):
+                if not log.about.ended:
+                    return log
                 text = f"run {log.about.id} of {log.about.name} has ended"
                 raise PicoError(error("recipe-ended", text, hint="begin it anew"))
-        raise PicoError(
-            error("nothing-to-resume", f"no run of a recipe{f' called {run}' if run else ''} was cut short")
-        )
+        text = f"no run of {'a recipe' if word is None else f'the recipe {word[:40]}'} was cut short"
+        raise PicoError([*self.broken, error("nothing-to-resume", text, hint="`pico recipe` lists what can go on")])
+
+    def _logs(self, most: int | None = None) -> Iterator[Log]:
+        """Yield the logs of this bench, the latest first; one that can't be read is kept in `broken`, and one that a
+        kill left before its first line is of a run that did nothing."""
+        self.broken = []
+        for path in logs(self.bench.root)[:most]:
+            try:
+                yield Log.read(path)
+            except PicoError as exc:
+                if path.stat().st_size:
+                    self.broken += [replace(d, severity="warning") for d in exc.diagnostics]
+
+    def changed_since(self, log: Log) -> tuple[Diagnostic, ...]:
+        """Return what is otherwise than a run of a recipe left it; see `pico.recipes.taken_up.otherwise`."""
+        return otherwise(self.bench, log)
 
     def ran(self, word: str | None = None) -> tuple[Recipe, Log]:
         """Return the last run of a recipe, or the last of a recipe of that name, or the one whose id begins so; with
         the recipe as it was then. Raises PicoError where there is none."""
-        for path in logs(self.bench.root):
-            log = Log.read(path)
+        for log in self._logs():
             if word in (None, log.about.name) or log.about.id.startswith(str(word)):
                 return Recipes(self.bench, log.about.texts).read(log.about.path), log
         text = f"no recipe {'was run here' if word is None else f'or run of one is called `{word[:40]}`'}"

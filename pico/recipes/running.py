@@ -12,11 +12,11 @@ from pico.model.trace.unattended import Left
 from pico.model.vocabulary import values_of
 from pico.recipes.doing import Doing
 from pico.recipes.guarding import Guard, guard_of
-from pico.recipes.log import Log
+from pico.recipes.log import UNWRITTEN, Log
 from pico.recipes.one_run import OneRun
 from pico.recipes.recipe import Act, Recipe
 from pico.recipes.registry import step_file
-from pico.recipes.taken_up import settle
+from pico.recipes.taken_up import checked_out, settle
 from pico.recipes.walking import Ask, Entered, Told, walk
 
 if TYPE_CHECKING:
@@ -100,6 +100,7 @@ class _Run:
         self.acted = self.before = 0
         self.at = self.failed = ""
         self.taken_up = 0
+        self.reached = False
 
     def run(self) -> Outcome:
         try:
@@ -125,9 +126,14 @@ class _Run:
         except PicoError as exc:
             self.one.end("interrupted" if exc.exit_code == ExitCode.INTERRUPTED else "failed")
             found, code, returns = tuple(exc.diagnostics), exc.exit_code or ExitCode.ERROR, {}
+            if _unwritten(exc):  # without an end in its log it goes on once there is room
+                return self._outcome("failed", at=self.at, diagnostics=found, exit_code=code)
         if code == ExitCode.INTERRUPTED:
             return self._outcome("interrupted", at=self.at, diagnostics=found, exit_code=code)
-        self.log.end("failed" if found else "done")
+        try:
+            self.log.end("failed" if found else "done")
+        except PicoError as exc:
+            found, code = (*found, *exc.diagnostics), code or ExitCode.ERROR
         if found:
             return self._outcome("failed", at=self.failed or self.at, diagnostics=found, exit_code=code)
         return self._outcome("done", returns=returns)
@@ -138,6 +144,7 @@ class _Run:
 
     def _entered(self, entered: Entered) -> None:
         self.at = entered.path
+        self.reached |= bool(entered.path) and entered.path == self.watching.until
         self.watching.entered(entered)
 
     def _to_the_end(self, steps: Any) -> dict[str, Any]:
@@ -150,21 +157,24 @@ class _Run:
             try:
                 told = self._answer(ask)
             except PicoError as exc:
-                if exc.exit_code == ExitCode.INTERRUPTED:
+                if exc.exit_code == ExitCode.INTERRUPTED or _unwritten(exc):
                     steps.close()
                     raise
-                failed, self.failed = exc, self.failed or ask.path
+                failed, self.failed = _at_step(exc, ask.step), self.failed or ask.path
                 send = lambda: steps.throw(failed)  # noqa: E731, B023
             else:
                 answer = told
                 send = lambda: steps.send(answer)  # noqa: E731, B023
 
     def _answer(self, ask: Ask) -> Told:
-        if self.watching.until and ask.path == self.watching.until:
+        until = self.watching.until
+        if until and (
+            self.reached or ask.path == until or ask.path.startswith((f"{until}.", f"{until}[", f"{until}?"))
+        ):
             raise _Until
         content = {"kind": ask.step.kind, "given": ask.given} if ask.step else {"names": list(ask.names)}
         again = ask.path in self.log.steps
-        known = self.log.begun(ask.path, content, self.bench.history.head_commit())
+        known = self.log.begun(ask.path, content, checked_out(self.bench), ask.step.kind if ask.step else "")
         if known.told is not None:
             self.before += ask.step is not None
             self.watching.ended(ask.path, known.told, True)
@@ -172,7 +182,7 @@ class _Run:
         told = self._act(ask, ask.step, known.runs, known.head, again) if ask.step else self._looked(ask.names)
         if self.taken_up and ask.step:
             told = {**told, "taken_up": self.taken_up}
-        self.log.told(ask.path, told)
+        self.log.told(ask.path, told, checked_out(self.bench))
         if ask.step:
             self.acted += 1
             self.watching.ended(ask.path, told, False)
@@ -206,3 +216,16 @@ class _Run:
         seen = self.bench.observe()
         values, _ = values_of(self.bench.setup, seen, sorted({n.partition(".")[0] for n in names}))
         return {n: values[n] for n in names if n in values}
+
+
+def _unwritten(exc: PicoError) -> bool:
+    """Whether a run can't go on for its log can't be written: what would be done then, nobody would know."""
+    return any(d.code == UNWRITTEN for d in exc.diagnostics)
+
+
+def _at_step(exc: PicoError, step: Act | None) -> PicoError:
+    """Return a failure with the place of its step in the recipe, where nothing says another."""
+    if step is None or step.source is None:
+        return exc
+    found = [d if d.source or d.severity != "error" else replace(d, source=step.source) for d in exc.diagnostics]
+    return PicoError(found, exc.exit_code)

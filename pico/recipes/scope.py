@@ -35,6 +35,10 @@ def _unit(setup: Setup, address: str) -> str:
     return measurable.unit if measurable is not None and measurable.datatype == "float" else ""
 
 
+MOST_VALUES = 10_000
+"""Values that a range may have."""
+
+
 class Scope:
     """The names at one place. `own`: those of the recipe; blocks see those around them, and keep theirs to
     themselves. `measured`: numbers of the bench that a step before measures."""
@@ -75,17 +79,20 @@ def spaced(first: float, last: float, step: float) -> tuple[float, ...]:
     """Return the values from `first` to `last`, both included where the `step` leads there; raises ValueError."""
     if step == 0 or not all(map(math.isfinite, (first, last, step))):
         raise ValueError("a range needs a step other than 0")
-    count = math.floor((last - first) / step + 1e-9) + 1
-    if not 0 < count <= 10_000:
+    turns = (last - first) / step
+    count = math.floor(turns + 1e-9) + 1 if abs(turns) < MOST_VALUES else 0
+    if not 0 < count <= MOST_VALUES:
         raise ValueError(f"a range from {first:g} to {last:g} in steps of {step:g} has no values, or too many")
     return tuple(round(first + n * step, 12) for n in range(count))
 
 
-def even(first: float, last: float, count: int) -> tuple[float, ...]:
+def even(first: float, last: float, count: float) -> tuple[float, ...]:
     """Return `count` values from `first` to `last`; raises ValueError."""
-    if not 2 <= count <= 10_000:
+    if not count.is_integer():
+        raise ValueError("a range has a whole number of values")
+    if not 2 <= count <= MOST_VALUES:
         raise ValueError("a range has 2 to 10,000 values")
-    return tuple(round(first + n * (last - first) / (count - 1), 12) for n in range(count))
+    return tuple(round(first + n * (last - first) / (count - 1), 12) for n in range(int(count)))
 
 
 def _sd(items: Any) -> float:

@@ -3,15 +3,71 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.diagnostics import PicoError
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.recipes.log import Checked, Log
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
+    from pico.model.diff import Change
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
     from pico.runs.journal import JournalRecord
+
+
+def checked_out(bench: Bench) -> Checked:
+    """Return the branch and the commit that are checked out."""
+    head = bench.folder.head()
+    return (head.branch, head.commit) if head else (None, None)
+
+
+def otherwise(bench: Bench, log: Log) -> tuple[Diagnostic, ...]:
+    """Return what is otherwise than a recipe left it when it was cut short, and what others did to that: what it
+    measures and commits would be of another bench, or on another branch, than it says."""
+    found = list[Diagnostic]()
+    last = next(reversed(log.steps.values()), None)
+    here = checked_out(bench)
+    moves_head = last is not None and last.told is None and last.kind in ("commit", "checkout", "branch")
+    if last is not None and last.at not in (None, here) and not moves_head:
+        then, now = (f"{branch or 'no branch'} at {(commit or 'no commit')[:7]}" for branch, commit in (last.at, here))
+        hint = f"`git checkout {last.at[0] or last.at[1]}`" if last.at and any(last.at) else ""
+        found.append(error("bench-changed", f"{then} was checked out, and now it is {now}", hint=hint))
+    runs = [run for step in log.steps.values() for run in step.runs]
+    changes, others = _changed_since(bench, runs[-1]) if runs else ((), ())
+    by = f"since {log.about.name} was cut short, by {', '.join(others)}"
+    return (*found, *(error("bench-changed", f"{c.component}.{c.tunable}: {c.text}", detail=by) for c in changes))
+
+
+def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[str, ...]]:
+    """Return what is otherwise by what other runs moved or set after one that was cut short, and these runs in their
+    order. Apart from that is what the run itself was at when it was cut short, and what only emptied hands. Raises
+    PicoError where the journal can't be read."""
+    from pico.bench.recovery import begun_by, document_of, state_before
+    from pico.model.drift import drift_of
+    from pico.model.observation import live_state
+
+    memory = bench.edge.memory
+    runs = memory.runs() if memory else ()
+    own = next((n for n, one in enumerate(runs) if one.run == run), len(runs))
+    if memory is None or own + 1 >= len(runs):
+        return (), ()
+    moving = memory.moving()
+    others = [r for r in runs[own + 1 :] if r.run in moving and document_of(memory, r).target.cause != "recover"]
+    parts = {component for other in others for component, _ in begun_by(memory, other)}
+    if not parts:
+        return (), ()
+    before, _ = state_before(bench.setup, memory, (others[0], *runs[own::-1]), parts)
+    seen = bench.observe()
+    live = live_state(bench.setup, seen)
+    then = {name: before.components[name] for name in parts & before.components.keys()}
+    off = drift_of(bench.setup, seen, replace(live, components={**live.components, **then}))
+    under_way = set(begun_by(memory, runs[own], ended=False))
+    found = tuple(
+        c for c in off if c.component in then and (c.component, c.tunable) not in under_way and not c.tolerated
+    )
+    return found, tuple(r.run for r in others) if found else ()
 
 
 def settle(bench: Bench, begun: Sequence[str]) -> None:

@@ -5,18 +5,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
 from datetime import time
 from typing import get_args
 
-from pico.diagnostics import did_you_mean, error
+from pico.diagnostics import Diagnostic, did_you_mean, error
 from pico.manifest.text.tree import List, Map, Node, Scalar
 from pico.manifest.wording import shown
 from pico.model.arming import LaserClass
 from pico.model.trace.unattended import ENDS
 from pico.model.vocabulary import measured_in, numbers_of
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
-from pico.recipes.recipe import EVERY, Act, Call, Name, Step, Stop, Unattended, blocks
+from pico.recipes.recipe import EVERY, Act, Call, Name, Recipe, Step, Stop, Unattended, blocks
 from pico.recipes.registry import step_file
 from pico.recipes.scope import Scope
 
@@ -46,7 +45,7 @@ def read_unattended(
     stops = tuple(_stops(reader, names, own, node.get("stop")))
     every = node.get("every")
     seconds = reader.number(Scope({}, {}), every, "`every`", "s", 1.0, 86_400.0) if every else None
-    _asking(reader, node, steps)
+    _asking(reader, steps)
     if of is None or hours is None or seconds is NOTHING:
         return None
     return Unattended(of, *hours, stops, float(seconds.literal) if seconds else EVERY, _end(reader, node.get("end")))
@@ -128,13 +127,26 @@ def _end(reader: Reader, node: Node | None) -> tuple[str, ...]:
     return tuple(word for word in ENDS if word in {text for _, text in listed or ()})
 
 
-def _asking(reader: Reader, node: Map, steps: Sequence[Step]) -> None:
+def _asking(reader: Reader, steps: Sequence[Step]) -> None:
     """Say which steps wait for a person, who is not there."""
-    for step in _all(steps):
-        if step_file(step.kind).KIND.asks and step.given.get("unattended") != "skip":
-            text = f"`{step.title}` waits for a person, and `unattended` says that nobody is there"
-            hint = "`unattended: skip` beside a prompt, or no section `unattended`"
-            reader.found.append(replace(error("unattended", text, hint=hint), source=step.source))
+    hint = "`unattended: skip` beside a prompt, or no section `unattended`"
+    for step in _waiting(steps):
+        text = f"`{step.title}` waits for a person, and `unattended` says that nobody is there"
+        reader.found.append(error("unattended", text, hint=hint, source=step.source))
+
+
+def asking(recipe: Recipe) -> list[Diagnostic]:
+    """Return an error for each step of a recipe that can't be done where nobody is there."""
+    hint = "run it at a terminal; or `unattended: skip` beside a prompt that may be left out"
+    return [
+        error("unattended", f"`{step.title}` waits for a person, and nobody is there", hint=hint, source=step.source)
+        for step in _waiting((*recipe.steps, *recipe.finally_))
+    ]
+
+
+def _waiting(steps: Sequence[Step]) -> Iterator[Act]:
+    """Yield the steps that wait for a person whoever is there."""
+    return (s for s in _all(steps) if step_file(s.kind).KIND.asks and s.given.get("unattended") != "skip")
 
 
 def _all(steps: Sequence[Step]) -> Iterator[Act]:

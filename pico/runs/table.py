@@ -46,10 +46,10 @@ class Row:
 
 
 def rows(trace: Sequence[TraceEvent]) -> tuple[Row, ...]:
-    """Return the measurements of a trace in their order, with where what the run changed stood at each. A tunable that
-    was not looked at yet is left out."""
+    """Return the measurements of a trace in their order, with where what the run changed stood at each: before its
+    first change as that found it. A tunable that nobody looked at before is left out."""
     changed = {(c, t) for event in trace if event.kind == "intent" for c, t in _changed(event)}
-    known: dict[str, Any] = {}
+    known = _at_first(trace, changed)
     found = []
     for event in trace:
         if event.component is not None:
@@ -62,6 +62,18 @@ def rows(trace: Sequence[TraceEvent]) -> tuple[Row, ...]:
                 tunables=dict(sorted(known.items())),
             ))  # fmt: skip
     return tuple(found)
+
+
+def _at_first(trace: Sequence[TraceEvent], changed: set[tuple[str, str]]) -> dict[str, Any]:
+    """Return what a run changed as it was seen first, but for what operations of others had changed by then."""
+    found: dict[str, Any] = {}
+    lost = set[tuple[str, str]]()
+    for event in trace:
+        if event.kind == "intent":
+            lost |= {one for one in _changed(event) if one[0] != event.component}
+        elif event.kind == "started" and event.component and isinstance(part := event.data.get("before"), Mapping):
+            found = dict(_values(event.component, part, changed - lost)) | found
+    return found
 
 
 def _changed(event: TraceEvent) -> Iterator[tuple[str, str]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
@@ -9,11 +10,12 @@ from typing import Any, TypeVar, overload
 
 from pico.bench.bench import Bench as Services
 from pico.bench.commits import CommitMode
+from pico.bench.plans import written
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan
-from pico.model.quantities import Value
+from pico.model.quantities import QuantityError, Value, convert, example
 from pico.model.state import LabState
 from pico.model.trace.report import Committed, RunReport
 from pico.runs.event_model import documents, units_of
@@ -26,6 +28,8 @@ from pico.scripting.tables import Table
 from pico.scripting.tunables import Tunable
 
 T = TypeVar("T")
+AXES = {"x": "mm", "y": "mm", "yaw": "deg"}
+"""The axes of a pose, with their units."""
 
 
 class Bench(Services):
@@ -69,6 +73,8 @@ class Bench(Services):
 
         Raises KeyError, in words, for what there is not.
         """
+        if not isinstance(address, str):
+            raise KeyError(f"a part is called by its name, a text, not by {address!r}")
         name, dot, rest = address.partition(".")
         if name not in self.parts:
             known = did_you_mean(name, self.parts) or f"it has {', '.join(self.parts)}"
@@ -95,12 +101,14 @@ class Bench(Services):
     def set(self, values: Mapping[str, Value]) -> RunReport:
         """Set tunables by address, numbers in their units or texts with others, side by side as far as their motors
         can: `bench.set({"p1.angle": 10, "cam.exposure": "2 ms"})`. Raises PicoError where that can't be, or fails."""
+        _require_entries(values, "set", '`bench.set({"p1.angle": 10})`')
         checked = {address: self._tunable(address).checked(value) for address, value in values.items()}
         return self.do_plan(lambda: self.plans.setting(checked))
 
     def move(self, places: Mapping[str, str | Mapping[str, float]]) -> RunReport:
-        """Take parts to slots or poses, x and y [mm], yaw [deg]: `bench.move({"p2": {"x": 520}, "lx_100": "home"})`.
-        Raises PicoError where that can't be, or fails."""
+        """Take parts to slots or poses, x and y [mm], yaw [deg], or texts with other units:
+        `bench.move({"p2": {"x": 520}, "lx_100": "home"})`. Raises PicoError where that can't be, or fails."""
+        _require_entries(places, "moved", '`bench.move({"p2": {"x": 520}, "lx_100": "home"})`')
         wanted = {name: self._place(name, place) for name, place in places.items()}
         return self.do_plan(lambda: self.plans.moving(wanted))
 
@@ -124,7 +132,7 @@ class Bench(Services):
         `bench.measure("cam.image | centroid")`, several at once. Raises PicoError where there is no value."""
         from pico.kernels.pipeline import spelt
 
-        if not what:
+        if not what or not all(isinstance(one, str) for one in what):
             raise PicoError(error("request", "what is to be measured?", hint='such as `bench.measure("cam.centroid")`'))
         pairs = [(c.strip(), spelt(m)) for c, _, m in (one.partition(".") for one in what)]
         for component, measurable in pairs:
@@ -144,6 +152,8 @@ class Bench(Services):
     def pause(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s]: a simulated one passes at once. Raises PicoError on a simulated bench
         while a run is recorded, for its time is that of the run."""
+        if isinstance(seconds, bool) or not isinstance(seconds, int | float) or not 0 <= seconds < math.inf:
+            raise PicoError(error("request", f"a pause of {seconds!r}", hint="seconds, a number from 0"))
         self._queue.idle()
         simulated = self.wait(self.edge.describe()).simulated
         if simulated and self.recording is not None:
@@ -167,7 +177,15 @@ class Bench(Services):
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or the plan to a revision (the manifest for None), and return what became of it."""
         self._queue.idle()
+        if what is not None and not isinstance(what, Plan):
+            _require_revision(what)
         return super().apply(what)
+
+    def plan(self, revision: str | None = None, **options: Any) -> Plan:
+        """Return the plan to a revision, or to the manifest; see `Plans.plan`. Raises PicoError."""
+        if revision is not None:
+            _require_revision(revision)
+        return super().plan(revision, **options)
 
     def do_plan(self, planning: Callable[[], Plan]) -> RunReport:
         """Make a plan once nothing is under way, run it and return the report; raises PicoError where it fails."""
@@ -177,6 +195,7 @@ class Bench(Services):
 
     def ask(self, what: str, work: Callable[[], T]) -> Status[T]:
         """Have something done after what was asked for before, and return at once with the status of that."""
+        self.thread.require_here()
         _ = self.edge  # made in the thread of who asks
         return Status(self._queue.ask(work), what, self.halt)
 
@@ -249,7 +268,38 @@ class Bench(Services):
                 hint = did_you_mean(slot, self.setup.lab.slots)
                 raise PicoError(error("unknown-slot", f"there is no slot `{slot}`", hint=hint, address=name))
             return slot
-        if not place or (wrong := place.keys() - {"x", "y", "yaw"}):
-            text = f"where to move {name}?" if not place else f"move of {name} takes no `{sorted(wrong)[0]}`"
+        if not isinstance(place, Mapping) or not place or (wrong := place.keys() - AXES.keys()):
+            shaped = isinstance(place, Mapping) and place
+            text = f"move of {name} takes no `{sorted(map(str, wrong))[0]}`" if shaped else f"where to move {name}?"
             raise PicoError(error("request", text, hint="`x`, `y` [mm] and `yaw` [deg], or a slot", address=name))
-        return {axis: float(value) for axis, value in place.items()}
+        return {axis: _length(name, axis, value) for axis, value in place.items()}
+
+
+def _require_entries(what: object, done: str, hint: str) -> None:
+    if not isinstance(what, Mapping) or not what:
+        raise PicoError(error("request", f"what is to be {done}?", hint=hint))
+
+
+def _require_revision(what: object) -> None:
+    if not isinstance(what, str):
+        hint = "a plan, or the name of a commit, branch or tag; nothing for the manifest"
+        raise PicoError(error("request", f"{what!r:.60} is no revision", hint=hint))
+
+
+def _length(name: str, axis: str, value: object) -> float:
+    """Return where a part is to go along an axis, in its unit; raises PicoError for what is no finite number."""
+    unit, text = AXES[axis], written(value)
+    try:
+        number = _in_unit(text, unit)
+        if not math.isfinite(number):
+            raise QuantityError(f"`{text}` is no finite number; expected {example(unit)}")
+    except QuantityError as exc:
+        raise PicoError(error("request", f"{axis} of {name}: {exc}", address=name)) from exc
+    return number
+
+
+def _in_unit(text: str, unit: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        return float(convert(text, unit))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pico.diagnostics import did_you_mean
+from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.observation import slot_at
 from pico.model.pose import Pose
 from pico.model.quantities import Value
@@ -73,6 +73,11 @@ class Part:
     def move(self, slot: str | None = None, **pose: float) -> RunReport:
         """Have an arm take it to a slot, or to `x`, `y` [mm] and `yaw` [deg]; what is not named stays as it is. Raises
         PicoError where that can't be, and where it failed."""
+        if slot is not None and pose:
+            text = f"move of {self.name}: a slot, or a pose, not both"
+            raise PicoError(
+                error("request", text, hint='`move("storage/b1")`, or `move(x=300, yaw=5)`', address=self.name)
+            )
         return self._bench.move({self.name: slot if slot is not None else pose})
 
     def do(self, primitive: str, **arguments: Value) -> RunReport:
@@ -108,7 +113,12 @@ class Part:
 
     def __setattr__(self, name: str, value: Value) -> None:
         """Set a tunable, and return when it is there; raises PicoError."""
-        if name not in self._bench.setup.type_of(self.name).tunables:
+        kind = self._bench.setup.type_of(self.name)
+        if name not in kind.tunables:
+            if name in ("pose", "slot"):
+                raise AttributeError(f"{self.name} goes to another {name} by `move`")
+            if name in kind.measurables:
+                raise AttributeError(f"{name} of {self.name} is measured, and can't be set")
             raise AttributeError(self._unknown(name))
         self._bench.set({f"{self.name}.{name}": value})
 

@@ -69,12 +69,31 @@ def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert pico("runs", "show", run).code == 0
 
 
+def test_what_a_run_could_not_keep_to_is_refused_before_anything_moves(turning: Path, pico: Pico) -> None:
+    for words, said in (
+        (("--until", "2"), "has no step `2`"),
+        (("--until", "1[3].1"), "has no step `1[3].1`"),
+        (("--junit", "nowhere/run.xml"), "there is no such folder"),
+        (("-p", "angles=[3]", "-p", "angles=[4]"), "gives angles twice"),
+    ):
+        refused = pico("run", "turning", "--yes", *words)
+        assert refused.code == 1 and said in refused.err, words
+    edit(turning / "recipes" / "turning.yaml", "returns", "  - prompt: Take it out.\nreturns")
+    refused = pico("run", "turning", "--yes")
+    assert refused.code == 1 and "turning.yaml:11:5" in refused.err and "nobody is there" in refused.err
+    assert pico("get", "p1.angle").out.split()[1] == "0"
+
+
 def test_what_is_left_of_one_that_was_cut_short_is_shown_and_nothing_moves(turning: Path, pico: Pico) -> None:
     assert pico("run", "turning", "--until", "1[2].1", "--yes").code == 0
     answer = pico("run", "--resume", "--dry-run", "--yes")
     assert answer.code == 0 and "2 steps foreseen" in answer.out
     assert "1[2].1 set p1.angle" in answer.out and "1[1].1" not in answer.out
     assert pico("get", "p1.angle").out.split()[1] == "10"
+    assert pico("set", "p1", "angle=45", "--yes").code == 0
+    refused = pico("run", "turning", "--resume", "--yes")  # it would measure another bench than it set up
+    assert refused.code == 4 and "p1.angle: 10 → 45 deg" in refused.err
+    assert pico("undo", "--yes").code == 0
     assert pico("run", "--resume", "--yes").code == 0 and pico("get", "p1.angle").out.split()[1] == "20"
 
 
@@ -120,7 +139,7 @@ def test_an_assertion_that_fails_ends_it_with_six(turning: Path, pico: Pico) -> 
 def test_a_person_is_asked_only_where_one_is(turning: Path, pico: Pico) -> None:
     edit(turning / "recipes" / "turning.yaml", "steps:\n  - foreach", "steps:\n  - prompt: Put it in.\n  - foreach")
     answer = pico("run", "turning", "--yes")
-    assert answer.code == 1 and "nobody is there to be asked: Put it in." in answer.err
+    assert answer.code == 1 and "`prompt Put it in.` waits for a person, and nobody is there" in answer.err
     edit(turning / "recipes" / "turning.yaml", "prompt: Put it in.", "{prompt: Put it in., unattended: skip}")
     assert pico("run", "turning", "--yes").code == 0
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -231,6 +232,8 @@ def test_a_failure_names_its_step_and_what_the_bench_said(lab: Path) -> None:
     found = begin(lab)
     assert (found.outcome, found.at) == ("failed", "2[1].1")
     assert "goes from 0 to 360 deg, not to 1000" in found.diagnostics[0].summary
+    source = found.diagnostics[0].source
+    assert source is not None and source.path.endswith("scan.yaml") and source.start.line == 9
 
 
 CHAIN = """apiVersion: pico/v1
@@ -265,3 +268,115 @@ def test_what_kernels_make_of_a_picture_is_not_measured_again_when_it_goes_on(la
         assert [row.measurement.address for one in found for row in rows(one.trace)] == [
             "cam.image | background | d4sigma"
         ]
+
+
+def stopped_before(root: Path, step: str) -> None:
+    with Bench.open(root) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(root.parent / "scan.yaml"))
+        recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), Watching(until=step))
+
+
+def test_what_others_did_since_it_was_cut_short_is_told_and_no_more_once_it_is_undone(lab: Path) -> None:
+    stopped_before(lab, "2[2].1")
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        log = recipes.unended()
+        assert recipes.changed_since(log) == ()
+        bench.apply(bench.single("p1", "set", angle=45))
+        bench.apply(bench.single("p1", "measure", measurable="angle"))
+        (found,) = recipes.changed_since(log)
+        assert (found.code, found.summary) == ("bench-changed", "p1.angle: 10 → 45 deg"), found
+        bench.apply(bench.single("p1", "set", angle=10))
+        assert recipes.changed_since(log) == ()
+
+
+def test_a_log_that_was_cut_in_its_first_line_is_of_a_run_that_did_nothing(lab: Path) -> None:
+    stopped_before(lab, "2[2].1")
+    whole = logs(lab)[0]
+    whole.with_name("99990101T000000Z-aaaaaa.jsonl").write_bytes(b"")
+    whole.with_name("99990101T000000Z-bbbbbb.jsonl").write_bytes(whole.read_bytes()[:40])
+    assert resume(lab).outcome == "done"
+
+
+def test_a_log_of_another_version_is_told_and_keeps_no_other_from_going_on(lab: Path) -> None:
+    stopped_before(lab, "2[2].1")
+    text = logs(lab)[0].read_text(encoding="utf-8")
+    logs(lab)[0].with_name("99990101T000000Z-aaaaaa.jsonl").write_text(text.replace("_run/v1", "_run/v9"))
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        assert [about.name for about in recipes.cut_short()] == ["scan"]
+        assert "it is pico.recipe_run/v9" in recipes.broken[0].summary
+        with pytest.raises(PicoError, match="v9"):
+            recipes.unended("nope")
+    assert resume(lab).outcome == "done"
+
+
+def test_a_step_before_which_it_is_to_stop_is_one_that_there_is(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        recipes = Recipes(bench)
+        recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        ahead = recipes.ahead(recipe, recipes.arguments(recipe, {}))
+        for path in ("1", "2", "2[1]", "2[2].1", "6.1"):
+            recipes.require_step(recipe, path, ahead)
+        for path in ("99", "2.9", "2[3].1", "finally.1", ""):
+            with pytest.raises(PicoError, match="no step"):
+                recipes.require_step(recipe, path, ahead)
+        log = recipes.begin(recipe, recipes.arguments(recipe, {}))
+        found = recipes.run(recipe, log, Watching(until="2"))  # a loop, which itself does nothing
+        assert (found.outcome, found.acted) == ("interrupted", 1)
+
+
+def test_what_is_checked_out_otherwise_is_told_and_what_git_has_of_it_is_the_recipes(lab: Path) -> None:
+    """Also half a step: a branch that was made and not checked out; and a commit that a person made meanwhile."""
+    stopped_before(lab, "5")
+    with Bench.open(lab) as bench:
+        recipes, history = Recipes(bench), bench.folder.history()
+        log = recipes.unended()
+        assert log.steps["3"].kind == "commit" and log.steps["4"].at == ("mine", history.head().commit)
+        assert recipes.changed_since(log) == ()
+        bench.history.checkout("e1")
+        (said, *_) = recipes.changed_since(log)
+        assert said.code == "bench-changed" and "mine at" in said.summary and said.hint == "`git checkout mine`"
+
+
+@pytest.mark.parametrize("step", ["3", "4"])
+def test_half_a_step_in_git_is_done_once(lab: Path, monkeypatch: pytest.MonkeyPatch, step: str) -> None:
+    def killed(*_: object, **__: object) -> None:
+        raise Killed
+
+    with monkeypatch.context() as patched, pytest.raises(Killed):
+        if step == "3":  # before it commits, a person does
+            patched.setattr("pico.bench.commits.Commits.commit", killed)
+        else:  # the branch is there, and not checked out
+            patched.setattr("pico.history.lab_history.LabHistory.checkout", killed)
+        begin(lab)
+    if step == "3":
+        subprocess.run(["git", "commit", "-q", "--allow-empty", "-m", "by hand"], cwd=lab, check=True)
+    assert resume(lab).outcome == "done"
+    with Bench.open(lab) as bench:
+        said = [one.message.partition("\n")[0] for one in bench.folder.history().log()][:3]
+        assert said.count("turned") == 1 and bench.folder.history().head().branch == "mine", said
+
+
+def test_where_its_log_can_not_be_written_it_stops_there_and_goes_on_once_it_can(
+    lab: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A full disk: nothing is done of which nobody would know, what tidies up neither; a step that failed is over."""
+    (lab.parent / "scan.yaml").write_text(TEXT + "finally:\n  - set: {p2.angle: 5}\n")
+    lines, write = 0, Path.open
+
+    def full(self: Path, *mode: Any, **how: Any) -> Any:
+        nonlocal lines
+        lines += self.suffix == ".jsonl" and mode == ("ab",)
+        if lines >= 9 and self.suffix == ".jsonl" and mode == ("ab",):
+            raise OSError(28, "No space left on device")
+        return write(self, *mode, **how)
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Path, "open", full)
+        found = begin(lab)
+    assert found.outcome == "failed" and "no space left" in found.diagnostics[0].summary, found
+    assert "--resume" in found.diagnostics[0].hint and len(found.diagnostics) == 1
+    assert resume(lab).outcome == "done"
+    assert ending(lab)["measured"] == 2

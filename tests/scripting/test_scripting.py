@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Iterator
 from pathlib import Path
@@ -69,6 +70,44 @@ def test_what_there_is_not_is_said_with_what_there_is(bench: Bench) -> None:
         bench.move({"p1": "nowhere"})
     with pytest.raises(pico.PicoError, match="p1 is no tunable"):
         bench.set({"p1": 3})
+
+
+def test_what_makes_no_sense_is_refused_in_words_and_does_nothing(bench: Bench) -> None:
+    p2 = bench["p2"]
+    for ask, words in (
+        (lambda: bench.set({}), "what is to be set"),
+        (lambda: bench.set([1]), "what is to be set"),
+        (lambda: bench.set({5: 3}), "not by 5"),
+        (lambda: bench.move({}), "what is to be moved"),
+        (lambda: bench.move({"p2": (520, 420, 0)}), "where to move p2"),
+        (lambda: p2.move(x="abc"), "x of p2: `abc` is no"),
+        (lambda: p2.move(x="2 deg"), "an angle, not a length"),
+        (lambda: p2.move(x=float("nan")), "no finite number"),
+        (lambda: p2.move("storage/b1", x=3), "not both"),
+        (lambda: bench.measure(5), "what is to be measured"),
+        (lambda: bench.plan(5), "5 is no revision"),
+        (lambda: bench.apply(5), "5 is no revision"),
+        (lambda: bench.pause(-3), "a pause of -3"),
+        (lambda: bench.pause(float("nan")), "a pause of nan"),
+        (lambda: bench.commit("hi", "capturing"), "did you mean|no commit mode"),
+    ):  # fmt: skip
+        with pytest.raises(pico.PicoError, match=words):
+            ask()
+    with pytest.raises(AttributeError, match="centroid of cam is measured"):
+        bench["cam"].centroid = 4
+    with pytest.raises(AttributeError, match="by `move`"):
+        p2.pose = 4
+    assert bench.edge.memory is None or not bench.edge.memory.runs()
+    p2.move(x="52 cm", y=420)
+    assert p2.pose is not None and p2.pose.x == pytest.approx(520, abs=0.5)
+    child = os.fork()
+    if not child:  # nothing of this bench goes on there, and what waits for it is told
+        try:
+            p2.move(x=530)
+        except pico.PicoError as exc:
+            os._exit(0 if exc.diagnostics[0].code == "forked" else 1)
+        os._exit(2)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 
 def test_parts_move_and_what_cannot_be_moves_nothing(bench: Bench) -> None:
@@ -158,3 +197,12 @@ def test_names_are_exported_and_imported_only_when_they_are_asked_for() -> None:
         assert getattr(pico, name) is not None
     with pytest.raises(AttributeError, match="no attribute 'nothing'"):
         _ = pico.nothing
+
+
+def test_where_a_scan_begins_at_the_value_that_there_is_its_first_point_has_it_too(bench: Bench) -> None:
+    bench["p1"].angle = 10
+    with bench.record("scan"):
+        for angle in (10, 20):
+            bench["p1"].angle = angle
+            bench.measure("hwp.angle")
+    assert [row.tunables["p1.angle"] for row in rows(bench.history.recorded_run(None)[0].trace)] == [10, 20]

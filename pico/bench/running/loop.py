@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import threading
 from collections.abc import Coroutine
 from concurrent.futures import Future, wait
 from typing import Any, TypeVar
+
+from pico.diagnostics import PicoError, error
 
 T = TypeVar("T")
 
@@ -26,13 +29,26 @@ class LoopThread:
         self._busy: set[Future[Any]] = set()
         self.left_busy = False
         """Whether somebody stopped waiting for what the thread still does."""
+        self._process = 0
+
+    @property
+    def elsewhere(self) -> bool:
+        """Whether the thread was left in another process, of which this one was forked."""
+        return self._loop is not None and self._process != os.getpid()
+
+    def require_here(self) -> None:
+        """Raise PicoError where the thread was left in another process: nothing would ever come of waiting for it."""
+        if self.elsewhere:
+            text = f"this bench was opened in process {self._process}, of which this one was forked"
+            hint = "open it anew here: `pico.open(...)`; or let one process do what moves the bench"
+            raise PicoError(error("forked", text, hint=hint))
 
     def submit(self, work: Coroutine[Any, Any, T]) -> Future[T]:
         """Start a coroutine and return its future, which is kept meanwhile: a loop alone does not keep what waits for
         another process from the garbage collector."""
         with self._lock:
             if self._loop is None:
-                self._loop = asyncio.new_event_loop()
+                self._loop, self._process = asyncio.new_event_loop(), os.getpid()
                 threading.Thread(target=self._loop.run_forever, name="pico bench", daemon=True).start()
             future = asyncio.run_coroutine_threadsafe(work, self._loop)
         self._busy.add(future)
@@ -41,6 +57,9 @@ class LoopThread:
 
     def wait(self, work: Coroutine[Any, Any, T]) -> T:
         """Run a coroutine and return its result, or raise what it raises; Ctrl-C ends the waiting at once."""
+        if self.elsewhere:
+            work.close()
+        self.require_here()
         future: Future[T] | None = None
         try:
             future = self.submit(work)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from pico.diagnostics import PicoError
 from pico.manifest.text.tree import Node
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader
@@ -23,6 +24,10 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     """See `pico.recipes.registry.StepFile`."""
     history = doing.bench.folder.history()
     if history.head().branch != given["name"]:
-        history.branch(str(given["name"]))
+        try:
+            history.branch(str(given["name"]))
+        except PicoError:  # made before the recipe was cut short, and not yet checked out
+            if not doing.again or history.resolve(str(given["name"])).id != history.head().commit:
+                raise
         doing.bench.history.checkout(str(given["name"]))
     return {}

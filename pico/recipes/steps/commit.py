@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from pico.history.messages.trailers import meta as noted
 from pico.manifest.text.tree import Node
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader
@@ -26,9 +27,9 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     bench = doing.bench
     history = bench.folder.history()
     head = history.head().commit
+    meta = {RECIPE: f"{doing.recipe} {doing.step}"}
     if doing.head is not None and head not in (None, doing.head):  # it was made before the recipe was cut short
         made = history.resolve(str(head))
-        if doing.head in made.parents:
+        if doing.head in made.parents and noted(made.message).get(RECIPE) == meta[RECIPE]:
             return {"": made.id}
-    meta = {RECIPE: f"{doing.recipe} {doing.step}"}
     return {"": bench.commits.commit(str(given["message"]), "capture", meta=meta, empty=True).commit}
