@@ -77,16 +77,15 @@ def _overlaps(setup: Setup, mover: Mover, grid: Grid[str], others: Mapping[str, 
     """Return what is in the way of the mover at its goal, however the others are turned in their slots: nothing if a
     turn of the part in its own avoids it."""
     margin = setup.lab.margins.body
-    fewest: list[str] | None = None
     places = [mover.places[goal] for goal in mover.goals]
+    hits: list[list[str]] = []
     for place in [p for p in places if _in_bounds(setup, mover, p)] or places:
         shape = goal_shape(mover, place)
         near = sorted(n for n in grid.near(shape, margin) if n != mover.name)
-        hits = [n for n in near if _always_meets(shape, margin, grid.shapes[n], others.get(n))]
-        if not hits:
+        hits.append([n for n in near if _always_meets(shape, margin, grid.shapes[n], others.get(n))])
+        if not hits[-1]:
             return []
-        fewest = fewest or hits
-    return fewest or []
+    return [n for n in hits[0] if all(n in turn for turn in hits)] or hits[0]
 
 
 def _always_meets(shape: Shape, margin: float, stands: Shape, other: Mover | None) -> bool:
