@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import pytest
@@ -36,6 +37,9 @@ def distance(a: str, b: str) -> float:
     "p2.angle == 30", "p2.angle > 29 && p2.angle < 3.1e1", "p2.angle in [30, 31]", "distance(p1, p2) > 3",
     "size(operations) == 2", "operations.size() == 2", "operations[1].mass == 2", "operations[0].tags[1] == 'b'",
     "operations.all(o, o.mass <= 2)", "components[p1].mass == 3", "components.p1.places[0] == 1",
+    "operations[size(operations) - 1].mass == 2", "operations[int(p2.angle / 20)].mass == 2",
+    "[[1, 2], [3]][size(operations) - 1][int('0')] == 3", "size(operations) - int(1.9) == 1",
+    "operations[operations[0].mass].mass == operations[ size(operations[0].tags) - 1 ].mass // 2",
     "p2.open || cam.peak > 200", "'1' == \"1\"", "operations.exists(o, size(o.tags) == 2) // 2 tags",
 ])  # fmt: skip
 def test_integers_and_doubles_are_one_kind_of_number(language: Language, text: str) -> None:
@@ -48,7 +52,9 @@ def test_integers_and_doubles_are_one_kind_of_number(language: Language, text: s
     ("p2.angle > 'x'", ">", "a number and text"),
     ("10 < 20 && p2.angle ==", "", "ends too early"),
     ("p2.angle + 1", "p2.angle + 1", "a number, not true or false"),
-    ("distance(p1) > 1", "(", "this many arguments"),
+    ("distance(p1) > 1", "distance", "this many arguments"),
+    ("1 < 2 && nearest(p1) > 1", "nearest", "no function `nearest`"),
+    ("operations['a'].mass == 1 && operations[size(operations) - 1].mass == 2", "[", "a list and text"),
     ("1 + 1 == 2 && p2.angle > 'x'", ">", "a number and text"),
 ])  # fmt: skip
 def test_mistakes_are_found_without_evaluating_and_at_their_place(
@@ -58,6 +64,18 @@ def test_mistakes_are_found_without_evaluating_and_at_their_place(
         language.compile(text)
     assert said in str(caught.value)
     assert text[caught.value.start : caught.value.end] == part
+
+
+@pytest.mark.parametrize(("text", "hint"), [
+    ("operations['a'].mass > 1", "a whole number"), ("p2.angle % 2 == 1", "mod(a, b)"),
+    ("'a' + 1 == 'a1'", "string(x)"),
+    ("max([1, 2]) > 1", "most(l)"), ("p2.open and p2.open", "`&&`"), ("distance(p1) > 1", "distance(text, text)"),
+    ("last(operations) == 1", "l[size(l) - 1]"), ("size() > 1", "size(l)"), ("size(1) > 1", "size(l)"),
+])  # fmt: skip
+def test_a_mistake_comes_with_what_would_be_right(language: Language, text: str, hint: str) -> None:
+    with pytest.raises(ExpressionError) as caught:
+        language.compile(text)
+    assert hint in caught.value.hint
 
 
 def test_what_is_not_known_is_named(language: Language) -> None:
@@ -70,10 +88,13 @@ def test_what_is_not_known_is_named(language: Language) -> None:
     ("components.p1.weight > 1", "there is no `weight` in it"),
     ("distance(p1, p1) > 1", "p1 is no distance from itself"),
     ("operations.all(o, o.tags)", "not go together"),
-    ("operations[7].mass > 1", "Index"),
+    ("operations[7].mass > 1", "there is no [7]: the list has 2 items, [0] to [1]"),
+    ("operations[p2.pose.x - 6].mass > 1", "there is no [-1]"),
+    ("operations[p2.angle / 100].mass > 1", "a whole number"),
+    ("int('two') > 1", "`two` is no number"),
 ])  # fmt: skip
 def test_an_evaluation_without_a_result_says_why(language: Language, text: str, said: str) -> None:
-    with pytest.raises(ExpressionError, match=said.replace("[", r"\[")):
+    with pytest.raises(ExpressionError, match=re.escape(said)):
         language.compile(text).evaluate(VALUES)
 
 

@@ -6,11 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
+from pico.diagnostics import Diagnostic, did_you_mean, error
 from pico.expressions import ExpressionError, Language
 from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.manifest.text.tree import Document, List, Scalar
+from pico.manifest.text.within import inside
 from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, cameras_of, functions_of, names_of
 
@@ -88,19 +89,8 @@ def _each(
         try:
             language.compile(said[1].text)
         except ExpressionError as exc:
-            yield error("expression", f"{what}: {exc}", hint=hint, source=_inside(document, said[1], exc))
-
-
-def _inside(document: Document, node: Scalar, wrong: ExpressionError) -> SourceRange:
-    """Return where in the manifest the characters stand that an error is about, however it is quoted or folded."""
-    raw, part = document.source.content[node.start : node.end], node.text[wrong.start : wrong.end]
-    if not part.strip() or part not in raw:
-        end = node.start + len(raw.rstrip())
-        return document.source.range(end - 1 if not part.strip() else node.start, end)
-    at = raw.find(part)
-    for _ in range(node.text[: wrong.start].count(part)):
-        at = max(at, raw.find(part, at + 1))
-    return document.source.range(node.start + at, node.start + at + len(part))
+            at = inside(document.source, said[1], exc.start, exc.end)
+            yield error("expression", f"{what}: {exc}", hint=exc.hint or hint, source=at)
 
 
 def _ignored(document: Document, setup: Setup) -> Iterator[Diagnostic]:

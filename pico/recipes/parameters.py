@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any, get_args, get_type_hints
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.expressions import ExpressionError
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import List, Map, Node, Scalar, parse
 from pico.model.quantities import QuantityError, require_unit
@@ -79,19 +80,24 @@ def _range(reader: Reader, name: str, node: Node | None, unit: str) -> tuple[flo
 
 
 def _value(reader: Reader, name: str, node: Node, unit: str, kind: str) -> tuple[Any, Any]:
-    """Return a value of a parameter that is written out, and its kind: as declared, else as it looks."""
+    """Return a value of a parameter, and its kind: as declared, else as it looks."""
     nothing = Scope({}, {})
-    if isinstance(node, List) or kind in ("numbers", "texts"):
+    if isinstance(node, List | Map) or kind in ("numbers", "texts"):
         term, each = reader.values(nothing, node, name, unit)
         looks = "texts" if each.kind == "text" else "numbers"
         if kind and looks != kind and term is not NOTHING:
             reader.wrong(node, "type", f"{name} is declared as {kind}, and this is {looks}")
-        return term.literal, looks
-    if kind == "text" or (not kind and not unit and isinstance(node, Scalar) and isinstance(node.value, str)):
-        return reader.text(nothing, node, name).literal, "text"
-    if kind == "bool" or (not kind and isinstance(node, Scalar) and isinstance(node.value, bool)):
-        return reader.flag(nothing, node, name).literal, "bool"
-    return reader.number(nothing, node, name, unit).literal, "number"
+    elif kind == "text" or (not kind and not unit and isinstance(node, Scalar) and isinstance(node.value, str)):
+        term, looks = reader.text(nothing, node, name), "text"
+    elif kind == "bool" or (not kind and isinstance(node, Scalar) and isinstance(node.value, bool)):
+        term, looks = reader.flag(nothing, node, name), "bool"
+    else:
+        term, looks = reader.number(nothing, node, name, unit), "number"
+    try:
+        return term.value({}), looks
+    except ExpressionError as exc:
+        reader.wrong(node, "expression", f"{name} can't be told: {exc}", exc.hint)
+        return None, looks
 
 
 def unfit(parameter: Parameter, value: Any) -> str:

@@ -14,6 +14,7 @@ from pico.kernels.measured import units_by
 from pico.kernels.pipeline import source_of
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
+from pico.manifest.text.within import inside
 from pico.manifest.values import read_value
 from pico.manifest.wording import expected_quantity, quantity, shown
 from pico.model.catalog import Tunable
@@ -137,7 +138,7 @@ class Reader:
 
     def values(self, scope: Scope, node: Node, what: str, unit: str = "") -> tuple[Term, Name]:
         """Return a list of values with what each is: written out (numbers, expressions, or texts), a range
-        (`{from: 0, to: 45, step: 5}`, or `count:`), or an expression."""
+        (`{from: 0, to: 45, step: 5}`, or `count:`, each of them an expression), or an expression."""
         if isinstance(node, Map):
             return self._range(scope, node, what, unit), Name("number", unit)
         if isinstance(node, Scalar):
@@ -145,52 +146,70 @@ class Reader:
         items = [i for i in node.items if isinstance(i, Scalar)]
         if len(items) < len(node.items):
             return self.wrong(node, "type", f"{what} is no list of numbers or texts"), Name("number", unit)
-        whole = f"[{', '.join(i.text for i in items)}]"
         if not unit and any(isinstance(i.value, str) for i in items):
-            return self._texts(scope, node, what, items, whole)
+            return self._mixed(scope, node, what, items)
         terms = [self.number(scope, item, f"each of {what}", unit) for item in items]
-        if all(t.known for t in terms):
-            return literal([t.literal for t in terms]), Name("number", unit)
-        return self._listed(scope, node, what, unit, whole)
+        if NOTHING in terms:
+            return NOTHING, Name("number", unit)
+        known = all(t.known for t in terms)
+        found = literal([t.literal for t in terms]) if known else self._composed(scope, node, _in_list(terms))
+        return found, Name("number", unit)
 
-    def _texts(self, scope: Scope, node: Node, what: str, items: list[Scalar], whole: str) -> tuple[Term, Name]:
-        """Return a list with texts in it: expressions where all of them are, else as they stand."""
-        try:
-            return self._listed(scope, node, what, "", whole)
-        except ExpressionError:
+    def _mixed(self, scope: Scope, node: Node, what: str, items: list[Scalar]) -> tuple[Term, Name]:
+        """Return a list with texts in it: expressions, or none of them a number, as they stand."""
+        kinds, wrong = list[Kind](), list[tuple[Scalar, ExpressionError]]()
+        for item in items:
+            try:
+                kinds.append(scope.language.kind_of(item.text)[0])
+            except ExpressionError as exc:
+                wrong.append((item, exc))
+        if wrong and not {"number", "numbers"} & set(kinds):
             return literal([i.text for i in items]), Name("text")
+        if wrong:
+            hint = "a text among numbers has quotes of its own: `\"'e1'\"`"
+            return self._mistake(*wrong[0], f"each of {what}", hint), Name("number")
+        for item, kind in zip(items, kinds, strict=True):
+            if kind != kinds[0] or kind not in ("number", "text"):
+                text = f"`{item.text[:40]}` is {_WORDS[kind]}: {what} has numbers in it, or texts"
+                return self.wrong(item, "type", text), Name("number")
+        return self._composed(scope, node, f"[{', '.join(i.text for i in items)}]"), Name(kinds[0])
 
-    def _listed(self, scope: Scope, node: Node, what: str, unit: str, text: str = "") -> tuple[Term, Name]:
-        """Return a list as an expression; raises ExpressionError where `text` is none that would be one."""
+    def _listed(self, scope: Scope, node: Scalar, what: str, unit: str) -> tuple[Term, Name]:
+        """Return a list that is an expression."""
         try:
-            kind, expression = scope.language.kind_of(text or _text(node))
+            kind, expression = scope.language.kind_of(node.text)
         except ExpressionError as exc:
-            if text or not isinstance(node, Scalar):
-                raise
             return self._mistake(node, exc, what), Name("number", unit)
         if kind not in ("numbers", "texts"):
             told = f"{what} is {_WORDS[kind]}, not a list of values"
             return self.wrong(node, "type", told, "`[0, 5, 10]`, or `{from: 0, to: 45, step: 5}`"), Name("number", unit)
-        known, term = scope.name(_text(node)), self._sure(scope, node, Term(parts=(expression,)))
+        known, term = scope.name(node.text), self._sure(scope, node, Term(parts=(expression,)))
         return term, Name("number" if kind == "numbers" else "text", known.unit if known else unit)
 
+    def _composed(self, scope: Scope, node: Node, text: str) -> Term:
+        """Return the term of an expression that was made of ones that are right."""
+        try:
+            return self._sure(scope, node, Term(parts=(scope.language.kind_of(text)[1],)))
+        except ExpressionError as exc:
+            return self.wrong(node, "expression", f"`{text[:60]}` can't be told: {exc}", exc.hint)
+
     def _range(self, scope: Scope, node: Map, what: str, unit: str) -> Term:
-        keys = {"from", "to", "step"} if "step" in node.entries else {"from", "to", "count"}
-        if set(node.entries) != keys:
+        """Return a range: `from` and `to` are in it, values are `step` apart, or as many as `count` says."""
+        last = "step" if "step" in node.entries else "count"
+        if set(node.entries) != {"from", "to", last}:
             return self.wrong(node, "range", f"{what} is no range", "`{from: 0, to: 45, step: 5}`, or `count: 10`")
         given = {
-            k: self.number(scope, node.entries[k][1], f"{k} of {what}", "" if k == "count" else unit) for k in keys
+            k: self.number(scope, node.entries[k][1], f"{k} of {what}", "" if k == "count" else unit)
+            for k in ("from", "to", last)
         }
-        if not all(t.known and t is not NOTHING for t in given.values()):
-            hint = f"`{what}: range(a, b, step)` takes expressions"
-            if any(t is NOTHING for t in given.values()):
-                return NOTHING
-            return self.wrong(node, "range", f"a range of {what} is written in numbers", hint)
-        first, last = given["from"].literal, given["to"].literal
+        terms = list(given.values())
+        if NOTHING in terms:
+            return NOTHING
+        if not all(t.known for t in terms):
+            function = "range" if last == "step" else "linspace"
+            return self._composed(scope, node, f"{function}({', '.join(map(_source, terms))})")
         try:
-            if "step" in given:
-                return literal(spaced(first, last, given["step"].literal))
-            return literal(even(first, last, given["count"].literal))
+            return literal((spaced if last == "step" else even)(*(t.literal for t in terms)))
         except ValueError as exc:
             return self.wrong(node, "range", f"{what}: {exc}")
 
@@ -199,14 +218,15 @@ class Reader:
         if not isinstance(node, Scalar) or not node.text.strip():
             return self.wrong(node, "type", f"{what} is {shown(plain(node))}, not {_WORDS[kind]}")
         text = node.text.strip()
+        before = node.text.find(text)
         if (whole := INSIDE.fullmatch(text)) is not None:
-            text = whole[1]
+            text, before = whole[1], before + whole.start(1)
         try:
             found = scope.language.compile(text, kind)
             told = scope.language.kind_of(text)[0]
         except ExpressionError as exc:
             hint = expected_quantity(unit) if kind == "number" and exc.end - exc.start >= len(text) else ""
-            return self._mistake(node, exc, what, hint)
+            return self._mistake(node, exc, what, hint, before)
         if told == "any" and kind != "any":
             return self.wrong(node, "type", f"nobody can tell beforehand that {what} is {_WORDS[kind]}: `{text[:40]}`")
         self._same_unit(scope, node, text, what, unit)
@@ -241,9 +261,15 @@ class Reader:
 
     def keys(self, node: Map, known: Collection[str], what: str) -> None:
         """Say which keys of a mapping there are not."""
-        for key, (at, _) in node.entries.items():
+        before = ""
+        for key, (at, value) in node.entries.items():
             if key not in known:
-                self.wrong(at, "unknown-key", f"unknown key `{key[:40]}` in {what}", did_you_mean(key[:40], known))
+                cut = before and node.flow and isinstance(value, Scalar) and value.start == value.end
+                hint = f"in `{{}}` a comma ends a text: put quotes around that of `{before}`" if cut else ""
+                hint = hint or did_you_mean(key[:40], known)
+                self.wrong(at, "unknown-key", f"unknown key `{key[:40]}` in {what}", hint)
+            else:
+                before = key
 
     def component(self, node: Node, word: str) -> bool:
         """Say where there is no component of that name; return whether there is."""
@@ -384,16 +410,12 @@ class Reader:
         self.found.append(found)
         return NOTHING
 
-    def _mistake(self, node: Scalar, exc: ExpressionError, what: str, hint: str = "") -> Term:
+    def _mistake(self, node: Scalar, exc: ExpressionError, what: str, hint: str = "", before: int = 0) -> Term:
+        """Say what is wrong with an expression that stands in a scalar after so many of its characters."""
         if self.lost & {word.partition(".")[0] for word in _WORD.findall(node.text)}:
             return NOTHING
-        raw, part = self.document.source.content[node.start : node.end], node.text[exc.start : exc.end]
-        start, end = node.start, node.end
-        if part.strip() and part in raw:
-            start = node.start + raw.find(part)
-            end = start + len(part)
-        source = self.document.source.range(start, end)
-        self.found.append(error("expression", f"{what} can't be told: {exc}", hint=hint, source=source))
+        source = inside(self.document.source, node, before + exc.start, before + exc.end)
+        self.found.append(error("expression", f"{what} can't be told: {exc}", hint=exc.hint or hint, source=source))
         return NOTHING
 
 
@@ -411,8 +433,14 @@ def _is_quantity(text: str, unit: str) -> bool:
     return True
 
 
-def _text(node: Node) -> str:
-    return node.text if isinstance(node, Scalar) else ""
+def _in_list(terms: Sequence[Term]) -> str:
+    return f"[{', '.join(map(_source, terms))}]"
+
+
+def _source(term: Term) -> str:
+    """Return a number that is right as a part of an expression."""
+    text = term.parts[0].text if term.parts and not isinstance(term.parts[0], str) else repr(term.literal)
+    return f"({text})"
 
 
 def _limit(value: float | None) -> str:

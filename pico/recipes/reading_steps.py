@@ -173,9 +173,14 @@ def _foreach(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, No
             over[word] = term
             _define(reading, inner, word, {"": each})
     steps = _inside(reading, inner, beside, "steps", common["at"])
-    if all(term.literal or any(term.text == f"${{{name}}}" for name in reading.full) for term in over.values()):
+    if all(_full(reading, term, body.entries[word][1]) for word, term in over.items()):
         scope.measured |= inner.measured  # it goes round at least once
     return Each(**common, over=over, steps=steps)
+
+
+def _full(reading: Reading, term: Term, node: Node) -> bool:
+    """Return whether a list has a value at least, wherever it comes from: a range has."""
+    return bool(term.literal) or isinstance(node, Map) or any(term.text == f"${{{name}}}" for name in reading.full)
 
 
 def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node], common: Any) -> Step:

@@ -88,8 +88,8 @@ def spaced(first: float, last: float, step: float) -> tuple[float, ...]:
 
 def even(first: float, last: float, count: float) -> tuple[float, ...]:
     """Return `count` values from `first` to `last`; raises ValueError."""
-    if not count.is_integer():
-        raise ValueError("a range has a whole number of values")
+    if not all(map(math.isfinite, (first, last))) or not count.is_integer():
+        raise ValueError("a range has two ends and a whole number of values")
     if not 2 <= count <= MOST_VALUES:
         raise ValueError("a range has 2 to 10,000 values")
     return tuple(round(first + n * (last - first) / (count - 1), 12) for n in range(int(count)))
@@ -108,6 +108,35 @@ def _root(x: float) -> float:
     return math.sqrt(x)
 
 
+def _log(x: float) -> float:
+    if x <= 0:
+        raise ValueError("the logarithm of a number that is not above 0")
+    return math.log(x)
+
+
+def _exp(x: float) -> float:
+    try:
+        return math.exp(x)
+    except OverflowError as exc:
+        raise ValueError(f"exp({x:g}) is too large") from exc
+
+
+def _mod(a: float, b: float) -> float:
+    if b == 0 or not math.isfinite(a):
+        raise ValueError("the remainder of a division by 0, or of what has no end")
+    return a % b
+
+
+def _rounded(x: float, digits: float = 0) -> float:
+    return float(round(x, int(digits)))
+
+
+def _floor(x: float) -> float:
+    if not math.isfinite(x):
+        raise ValueError(f"{x} has no whole part")
+    return float(math.floor(x))
+
+
 FUNCTIONS: Sequence[Function] = (
     Function("abs", ("number",), "number", abs),
     Function("sqrt", ("number",), "number", _root),
@@ -115,8 +144,14 @@ FUNCTIONS: Sequence[Function] = (
     Function("cos", ("number",), "number", lambda a: math.cos(math.radians(a))),
     Function("tan", ("number",), "number", lambda a: math.tan(math.radians(a))),
     Function("atan2", ("number", "number"), "number", lambda y, x: math.degrees(math.atan2(y, x))),
-    Function("round", ("number", "number"), "number", lambda x, digits: round(x, int(digits))),
+    Function("exp", ("number",), "number", _exp),
+    Function("log", ("number",), "number", _log),
+    Function("mod", ("number", "number"), "number", _mod),
+    Function("floor", ("number",), "number", _floor),
+    Function("round", ("number",), "number", _rounded),
+    Function("round", ("number", "number"), "number", _rounded),
     Function("range", ("number", "number", "number"), "numbers", _range),
+    Function("linspace", ("number", "number", "number"), "numbers", lambda *given: list(even(*given))),
     Function("mean", ("numbers",), "number", lambda items: statistics.fmean(_numbers(items))),
     Function("sd", ("numbers",), "number", _sd),
     Function("sum", ("numbers",), "number", lambda items: math.fsum(_numbers(items))),

@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
-import pytest
-from asking import read, right
+import re
+from pathlib import Path
 
+import pytest
+from asking import HEAD, SHEL, asked, read, right
+
+from pico.expressions import CONVERSIONS
+from pico.manifest.text.source import Source
+from pico.recipes.reading import read_recipe
 from pico.recipes.recipe import Act
+from pico.recipes.scope import function_names
 
 
 @pytest.mark.parametrize(
@@ -33,6 +40,12 @@ from pico.recipes.recipe import Act
         ("steps:\n- foreach: {t: 3}\n  steps: [{apply: e1}]\n", 2, "type", "not a list"),
         ("steps:\n- foreach: {t: {from: 0, to: 9, step: -1}}\n  steps: [{wait: 1}]", 2, "range", "no values"),
         ("steps:\n- foreach: {t: {from: 0, to: 1e300, step: 1e-300}}\n  steps: [{wait: 1}]", 2, "range", "too many"),
+        ("steps:\n- foreach: {t: {from: 0, to: 9, step: 1 + 'a'}}\n  steps: [{wait: 1}]", 2, "expression", "step of t"),
+        ("steps:\n- foreach: {t: {from: 0, to: 9}}\n  steps: [{wait: 1}]", 2, "range", "no range"),
+        ("steps:\n- foreach: {t: [1, nobody]}\n  steps: [{wait: 1}]", 2, "expression", "nothing is called `nobody`"),
+        ("steps:\n- foreach: {t: [1 + 1, \"'a'\"]}\n  steps: [{wait: 1}]", 2, "type", "numbers in it, or texts"),
+        ("steps:\n- scan: {p1.angle: [1 + 1, nobody]}\n  read: cam.power", 2, "expression", "called `nobody`"),
+        ("parameters: {t: {unit: deg, default: 1 / }}\nsteps: [{wait: 1}]", 1, "expression", "ends too early"),
         ("steps:\n- foreach: {t: {from: 0, to: 9, count: 2.5}}\n  steps: [{wait: 1}]", 2, "range", "whole number"),
         ("steps:\n- foreach: {in: [1, 2]}\n  steps: [{wait: 1}]", 2, "name", "a word of expressions"),
         ("parameters: {bytes: 1}\nsteps:\n- wait: 1 + 1", 1, "name", "a word of expressions"),
@@ -87,6 +100,72 @@ def test_one_mistake_in_a_step_is_one_error(chain: str, said: str) -> None:
     step = f"steps:\n- {{measure: '{chain}', as: spot}}\n"
     _, found = read(step + "- assert: spot.major > 3\n- note: {p1: 'it is ${spot.major}'}\nreturns: {w: spot.minor}\n")
     assert found == [f"2: {said}"]
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ('steps:\n- let: {l: "[1, 2]"}\n- let: {a: "l[0] + l#[\'x\']"}\n', "#["),
+        ("steps:\n- let: {l: '[1]'}\n- let: {s: 1, t: \"l[0] + ${l[0]#[1]}\"}\n", "#[1]"),
+        ("steps:\n- let: {a: 1}\n- assert: 'a < 2 && #b < 2'\n", "#b"),
+        ("steps:\n- let: {a: 1}\n- if: >-\n    a < 2 &&\n    a < #abc\n  then: [{wait: 1}]\n", "#abc"),
+        ("steps:\n- foreach: {t: [1, 1 + 1, 1 + #other]}\n  steps: [{wait: 1}]\n", "#other"),
+        ("steps:\n- foreach: {t: {from: 0, to: 2 + #two, count: 3}}\n  steps: [{wait: 1}]\n", "#two"),
+    ],
+)
+def test_a_mistake_in_an_expression_is_shown_where_it_stands(text: str, part: str) -> None:
+    """`#` marks the place; the same stands before it."""
+    at = text.index(part) + part.index("#")
+    lines = (HEAD + text[:at]).split("\n")
+    source = Source("a.yaml", HEAD + text.replace("#", ""))
+    _, found = read_recipe(source, SHEL, lambda *_: ("", b""))
+    assert found[0].source is not None
+    assert (found[0].source.start.line, found[0].source.start.column) == (len(lines), len(lines[-1]) + 1)
+
+
+@pytest.mark.parametrize("values", [
+    "{from: a, to: 3 * a, step: 1}", "{from: a, to: 6, count: size(l) + 1}", "range(a, 3 * a, 1)", "linspace(a, 6, 5)",
+    "[a, 'l[size(l) - 4]', 4, 'l[0] + 2', 6]", "l.map(v, v - 1)",
+])  # fmt: skip
+def test_a_range_takes_expressions(values: str) -> None:
+    text = (
+        f'parameters: {{l: [3, 4, 5, 6], a: 2}}\nsteps:\n- let: {{found: "[]"}}\n- foreach: {{t: "{values}"}}\n'
+        '  steps: [{let: {found: "found + [t]"}}]\nreturns: {found: found}\n'
+    )
+    recipe = right(text if values[0] not in "[{" else text.replace(f'"{values}"', values))
+    assert asked(recipe)[1]["found"][:4] == [2, 3, 4, 5]
+
+
+@pytest.mark.parametrize("text", [
+    "parameters: {t: {default: 1, description: tilt of p2, from the front}}\nsteps: [{wait: 1}]\n",
+    "steps:\n- {wait: 1, name: rest, then go on}\n",
+])  # fmt: skip
+def test_a_comma_that_ends_a_text_in_braces_is_told(text: str) -> None:
+    _, found = read_recipe(Source("a.yaml", HEAD + text), SHEL, lambda *_: ("", b""))
+    assert [d.code for d in found] == ["unknown-key"]
+    assert "a comma ends a text" in found[0].hint
+
+
+def test_what_a_loop_over_a_range_measures_is_counted_on() -> None:
+    right(
+        "parameters: {n: 3}\nsteps:\n- foreach: {t: {from: 1, to: n, step: 1}}\n  steps: [{measure: cam.power}]\n"
+        "- assert: cam.power > 3\n"
+    )
+
+
+def test_a_default_may_be_an_expression_or_a_range() -> None:
+    recipe = right(
+        "parameters: {a: {unit: deg, default: 2 * 15}, l: {default: {from: 0, to: 2 * 3, count: 3}}}\n"
+        "steps:\n- wait: 1\n"
+    )
+    assert recipe.parameters["a"].default == 30
+    assert recipe.parameters["l"].default == [0, 3, 6]
+
+
+def test_the_page_about_recipes_lists_the_functions_that_there_are() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "how-to" / "recipes.md").read_text()
+    table = page.partition("| in expressions |")[2].partition("###")[0]
+    assert set(re.findall(r"(?<![.\w])([a-z]\w*)\(", table)) == {*function_names(), *CONVERSIONS}
 
 
 def test_all_mistakes_are_told_at_once() -> None:

@@ -1,0 +1,118 @@
+"""What CEL says of an expression, in words of who wrote it, and what would be right."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Mapping, Sequence
+
+from pico.expressions.rewriting import WRITTEN
+
+_PATH = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
+_FOUND = re.compile(r"ERROR: <input>:(-?\d+):(-?\d+): ([^\n\[]*(?:\[(?!\w+\]\s*$)[^\n\[]*)*)")
+_OVERLOAD = re.compile(r"found no matching overload for '([^']*)' applied to '\((.*)\)'")
+_INDEX = re.compile(r"found no matching overload for '_\[_\]' applied to '\(list\(.*\), double\)'")
+_WORDS = {
+    "double": "a number", "int": "a whole number", "string": "text", "bool": "true or false", "dyn": "a value",
+    "list(double)": "a list of numbers", "list(string)": "a list of texts", "list(dyn)": "a list",
+    "number": "a number", "numbers": "a list of numbers", "texts": "a list of texts", "list": "a list",
+}  # fmt: skip
+_HINTS = {
+    "_[_]": "a list takes a whole number from 0 on: `l[0]`, `l[size(l) - 1]`",
+    "_%_": "`mod(a, b)` is the remainder",
+    "_+_": "`string(x)` makes a text of a number, `double(t)` a number of a text; `l + [x]` lengthens a list",
+}
+_OTHERWISE = {
+    "max": "most(l)", "maximum": "most(l)", "min": "least(l)", "minimum": "least(l)", "len": "size", "length": "size",
+    "avg": "mean", "average": "mean", "std": "sd", "stdev": "sd", "fmod": "mod", "float": "double", "str": "string",
+    "and": "&&", "or": "||", "not": "!", "if": "a ? b : c", "else": "a ? b : c", "last": "l[size(l) - 1]",
+}  # fmt: skip
+"""What others call it, and what it is called here."""
+_TOO_DEEP = "too deep or too long: brackets and sums have at most about 32 terms; `&&` chains may be longer"
+
+
+def kind(name: str) -> str:
+    """Return in words what a value is of which CEL, or a signature, says the kind."""
+    name = name.strip().replace("<", "(").replace(">", ")")
+    return _WORDS.get(name, name)
+
+
+def computed_indices(source: str, said: str) -> list[int]:
+    """Return where the brackets are whose index CEL does not take, for it is a number."""
+    found = (_place(source, one) for one in _FOUND.finditer(said) if _INDEX.search(one[3]))
+    return [at for at in found if source[at : at + 1] == "["]
+
+
+def mistake(
+    text: str, source: str, places: Sequence[int], said: str, known: Mapping[str, str]
+) -> tuple[str, int, int, str]:
+    """Return what is wrong, from where to where in `text`, and what would be right (empty: nobody can tell). `known`:
+    names and functions that there are, with how these are called."""
+    found = _FOUND.search(said)
+    if found is None or int(found[1]) < 1:
+        return _TOO_DEEP if "recursion" in said else said.partition("[")[0].strip(), 0, len(text), ""
+    start = places[min(_place(source, found), len(places) - 1)]
+    return _about(text, start, found[3].strip(), known)
+
+
+def failure(said: str) -> str:
+    """Return in words why an evaluation gave nothing."""
+    if "Iteration budget" in said:
+        return "it looks at too many things: more than 10,000 steps"
+    missing = re.search(r'Key not found in map : "([^"]*)"', said)
+    if missing:
+        return f"there is no `{missing[1]}` in it"
+    if beyond := re.search(r"index=(-?\d+) size=(\d+)", said):
+        last = f", [0] to [{int(beyond[2]) - 1}]" if int(beyond[2]) else ""
+        return f"there is no [{beyond[1]}]: the list has {beyond[2]} items{last}"
+    if "Index error: expected integer" in said:
+        return "an item of a list has a whole number: `l[int(x)]`, `l[size(l) - 1]`"
+    if "No matching overloads" in said or "matching overload" in said:
+        return f"it compares what does not go together: {said.split(':', 1)[-1].strip()[:120]}"
+    return re.sub(r"^[A-Z_]+: ", "", said.partition(" [")[0])[:200]
+
+
+def _place(source: str, found: re.Match[str]) -> int:
+    lines = source.split("\n")
+    return sum(len(line) + 1 for line in lines[: int(found[1]) - 1]) + int(found[2]) - 1
+
+
+def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[str, int, int, str]:
+    """Return a mistake that was found at `start`, in our words."""
+    path = next((m for m in _PATH.finditer(text) if m.start() <= start < m.end()), None)
+    if said.startswith("undeclared reference") and text[start : start + 1] == "(":
+        name = WRITTEN.get(name := said.split("'")[1], name)
+        end = len(text[:start].rstrip())
+        begin, end = (end - len(name), end) if text[:end].endswith(name) else (start, start + 1)
+        if called := known.get(name):
+            return f"there is no function `{name}` that takes this many arguments", begin, end, called
+        return f"there is no function `{name}`", begin, end, _meant(name, known)
+    if path and ("undeclared reference" in said or "operand of a select" in said):
+        return f"nothing is called `{path[0]}`{_near(path[0], known)}", path.start(), path.end(), ""
+    if overload := _OVERLOAD.search(said):
+        operator = WRITTEN.get(overload[1], overload[1])
+        return _misfit(operator, overload[2]), start, start + 1, _HINTS.get(operator) or known.get(operator, "")
+    words = said.partition(" (in container")[0].removeprefix("Syntax error: ")
+    words = re.sub(r"mismatched input '<EOF>'.*", "it ends too early", words)
+    words = re.sub(r"token recognition error at: '(.*)'.*", r"an open quote or an unknown sign, `\1`", words)
+    hint = _meant(path[0], ()) if path else ""
+    return f"it can't be read here: {re.sub(r' expecting .*', '', words)}", start, start + 1, hint
+
+
+def _near(name: str, known: Collection[str]) -> str:
+    import difflib
+
+    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
+    return f"; did you mean `{near[0]}`?" if near else ""
+
+
+def _meant(name: str, known: Collection[str]) -> str:
+    """Return what a word that there is not may have meant; empty where nobody can tell."""
+    other = _OTHERWISE.get(name.lower())
+    return f"here it is `{other}`" if other else _near(name, known).removeprefix("; ")
+
+
+def _misfit(operator: str, kinds: str) -> str:
+    """Return in words that an operator does not take what it is given: `_>_` and `double, string`."""
+    sign = operator.replace("_", " ").strip() if operator.startswith(("_", "!", "-")) else f"{operator}()"
+    given = " and ".join(kind(one) for one in kinds.split(", "))
+    return f"`{sign}` does not go with {given}"
