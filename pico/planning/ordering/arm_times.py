@@ -81,27 +81,30 @@ def timed(work: ArmWork, order: Sequence[int]) -> tuple[float, float]:
 def soonest(work: ArmWork, order: Sequence[int], tried: int = TRIED, seed: int = 0) -> tuple[int, ...]:
     """Return an order that keeps `before` and ends as soon as one that is found from `order`, which keeps it as well:
     local search that shifts single moves, from there and again and again from some moves shifted at random."""
-    rnd, left = random.Random(seed), [tried * len(order)]
-    best, cost = _descended(work, tuple(order), left)
+    rnd, left, known = random.Random(seed), [tried * len(order)], dict[tuple[int, ...], tuple[float, float]]()
+    best, cost = _descended(work, tuple(order), left, known)
     movable = left[0] < tried * len(order)  # no shift costs no work: where all moves wait in a row there is none
     while movable and left[0] > 0 and len(order) > 2:
         kicked = best
         for _ in range(3):
             shifts = list(_shifts(work, kicked, rnd.randrange(len(kicked))))
             kicked = rnd.choice(shifts) if shifts else kicked
-        found, value = _descended(work, kicked, left)
+        found, value = _descended(work, kicked, left, known)
         if _less(value, cost):
             best, cost = found, value
     return best
 
 
-def _descended(work: ArmWork, order: tuple[int, ...], left: list[int]) -> tuple[tuple[int, ...], tuple[float, float]]:
-    """Return the order after all shifts that make it better, and its times; `left`: moves that may still be timed."""
+def _descended(
+    work: ArmWork, order: tuple[int, ...], left: list[int], known: dict[tuple[int, ...], tuple[float, float]]
+) -> tuple[tuple[int, ...], tuple[float, float]]:
+    """Return the order after all shifts that make it better, and its times; `left`: moves that may still be timed;
+    `known`: the times of orders, so that of few moves, whose orders come back, each is timed once."""
     cost, k, since = timed(work, order), 0, 0
     while since < len(order) and left[0] > 0:
         for shifted in _shifts(work, order, k % len(order)):
             left[0] -= len(order)
-            value = timed(work, shifted)
+            value = known.get(shifted) or known.setdefault(shifted, timed(work, shifted))
             if _less(value, cost):
                 order, cost, since = shifted, value, -1
                 break
