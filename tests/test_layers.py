@@ -15,6 +15,7 @@ ORDER = (
     "diagnostics", "disk", "expressions", "resources", "attachment", "kernels", "optimize", "model", "teleop",
     "content", "geometry",
     "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
+    "drivers", "emulators",
     "backends", "policy", "execution", "runs", "edge", "history", "bench", "scripting", "recipes",
 )  # fmt: skip
 LOOSE = 6

@@ -1,0 +1,182 @@
+"""What PICO asks of an instrument: a protocol a kind, each as thin as the job allows. mm, deg, s, W; joints in rad.
+
+All of it is asynchronous, for vendors' libraries block: a driver hands its calls to the one worker thread of its bus
+(`pico.drivers.bus`), each with a deadline. What fails raises PicoError, with the device in its address; a reply that
+did not come in time is told as such, and never taken for one. After `stop` nothing moves until the next command.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal, Protocol
+
+from pico.model.record import record
+
+if TYPE_CHECKING:
+    import numpy as np
+
+Maturity = Literal["documented", "emulated", "vendor's firmware", "on device"]
+"""How far a driver was tried, the weakest first; the last with a date and the device's firmware."""
+
+
+@record
+class Identity:
+    """Who answers at the other end. `serial` is compared with the lab's before anything else is asked."""
+
+    vendor: str
+    model: str
+    serial: str
+    firmware: str = ""
+
+
+@record
+class ArmState:
+    """An arm as it last reported itself: `joints` from the base outward [rad], how old that is [s], whether it moves,
+    whether it would, and the controller's fault (0: none)."""
+
+    joints: tuple[float, ...]
+    age: float
+    moving: bool
+    enabled: bool
+    fault: int = 0
+
+
+@record
+class Grip:
+    """What a gripper found when it came to rest: how far its fingers are apart [mm], and whether something keeps them
+    from where they were to go; None where it can't tell."""
+
+    width: float
+    holds: bool | None
+
+
+@record
+class SafetyState:
+    """A safety input: safe only where `safe` is True; None is unknown, and unsafe. `age`: since it was heard [s]."""
+
+    safe: bool | None
+    age: float
+
+
+class Instrument(Protocol):
+    """What every driver does."""
+
+    async def connect(self) -> Identity:
+        """Open the link within the driver's deadline and ask who answers; moves nothing. Raises PicoError."""
+        ...
+
+    async def stop(self) -> None:
+        """Stop all motion now, decelerated; what it holds it keeps holding. Needs no other call to have ended."""
+        ...
+
+    async def close(self) -> None:
+        """Let go of the link; safe to call twice."""
+        ...
+
+
+class Arm(Instrument, Protocol):
+    """An arm that follows joint trajectories of our own timing."""
+
+    async def ready(self) -> ArmState:
+        """Configure limits, load and collision detection, read them back, and enable; raises PicoError where what is
+        read back differs, or the controller has a fault."""
+        ...
+
+    async def state(self) -> ArmState:
+        """Return how it last reported itself; raises PicoError where the link is lost."""
+        ...
+
+    async def follow(self, times: np.ndarray, joints: np.ndarray) -> ArmState:
+        """Follow `joints` (n, k) [rad] at `times` (n,) [s] from where it stands, and return once it is at rest there.
+
+        Raises PicoError where it does not stand at the first of them, was stopped, or came to a fault on the way.
+        """
+        ...
+
+    async def halt(self) -> None:
+        """Come to rest on the path, decelerated; `follow` then raises PicoError."""
+        ...
+
+    async def recover(self) -> ArmState:
+        """Clear a fault that may be cleared, and enable again; raises PicoError naming what a person must do."""
+        ...
+
+
+class Gripper(Instrument, Protocol):
+    """What opens and closes around a part."""
+
+    async def move_to(self, width: float, *, force: float | None = None) -> Grip:
+        """Bring the fingers `width` [mm] apart, or as near as what is between them allows, and say what was found."""
+        ...
+
+    async def grip(self) -> Grip:
+        """Return how the fingers are, moving nothing."""
+        ...
+
+
+class Axis(Instrument, Protocol):
+    """One motorized axis, in mm or deg of its own zero."""
+
+    async def position(self) -> float | None:
+        """Return where it reads that it is; None where it must be homed first."""
+        ...
+
+    async def move_to(self, position: float) -> float:
+        """Drive there, and return what it reads at rest; raises PicoError beyond its limits or where it fails."""
+        ...
+
+    async def home(self) -> float:
+        """Find its zero, and return what it reads there."""
+        ...
+
+
+class Camera(Instrument, Protocol):
+    """A camera, over the bench or in the beam."""
+
+    async def grab(self, *, exposure: float | None = None, gain: float | None = None) -> np.ndarray:
+        """Return one picture taken after the call, (rows, columns) or (rows, columns, 3), with this exposure [ms]."""
+        ...
+
+
+class DepthCamera(Camera, Protocol):
+    """A camera that measures depth, too."""
+
+    async def depth(self) -> np.ndarray:
+        """Return one depth map taken after the call, (rows, columns) [mm], NaN where nothing was found."""
+        ...
+
+
+class PowerMeter(Instrument, Protocol):
+    """A power meter."""
+
+    async def power(self, *, wavelength: float | None = None) -> tuple[float, float | None]:
+        """Return the power [W] and one standard deviation of it, None where unknown; `wavelength` [nm] is set and read
+        back first."""
+        ...
+
+
+class Laser(Instrument, Protocol):
+    """A laser whose emission is commanded, and read back from what it reports of itself."""
+
+    async def emit(self, on: bool) -> bool: ...
+
+    async def emitting(self) -> bool | None: ...
+
+
+class Shutter(Instrument, Protocol):
+    """A shutter; its state comes from a sensor of its own, never from the echo of a command."""
+
+    async def open(self, wanted: bool) -> bool: ...
+
+    async def is_open(self) -> bool | None: ...
+
+
+class Lamp(Instrument, Protocol):
+    """A lamp of the room or the bench."""
+
+    async def shine(self, on: bool) -> bool: ...
+
+
+class SafetyInput(Instrument, Protocol):
+    """A door, a curtain, an emergency stop, a key, an interlock or a shutter's sensor: fail-safe, with a heartbeat."""
+
+    async def read(self) -> SafetyState: ...
