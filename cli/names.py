@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "devices": "the instruments of a bench",
     "commission": "taking a real bench into use",
     "serve": "serving a bench to others",
     "edge": "benches that are served",
@@ -35,7 +34,7 @@ RESERVED = {
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
-    "stash", "swap", "budget",
+    "stash", "swap", "budget", "devices",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+from pico.model.comparing.status import Status, StatusRow
 from pico.model.record import as_json
 from pico.model.state import is_reference
-from pico.model.status import Status, StatusRow
 
 from .style import columns, count, paint, place, valued, wrap
 

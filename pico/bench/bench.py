@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     from pico.bench.watching import Watch
     from pico.diagnostics import Diagnostic
     from pico.history.log import Log
-    from pico.model.status import Status
+    from pico.model.comparing.status import Status
     from pico.model.trace.expectation import Verified
     from pico.model.trace.report import Captured, Committed, RunReport
 

@@ -27,10 +27,10 @@ from pico.history.messages.default import default_message
 from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
 from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, holds, read_addresses
+from pico.model.comparing.status import refuse_unapplied
 from pico.model.diff import Change, as_trimmed, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.state import LabState, home_state, references_of
-from pico.model.status import refuse_unapplied
 from pico.model.trace.report import Captured, Committed
 from pico.model.trace.run import GoalStood
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
 from pico.kernels.pipeline import source_of
-from pico.model.drift import drift_of
+from pico.model.comparing.drift import drift_of
 from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
 

@@ -13,8 +13,8 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
+from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
-from pico.model.drift import drift_of
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Spoiled, Target

@@ -11,7 +11,7 @@ from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.model.drift import drift_of
+from pico.model.comparing.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target, plan_from_json

@@ -16,14 +16,14 @@ from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import ExitCode, PicoError
-from pico.model.drift import drift_of
+from pico.model.comparing.drift import drift_of
 from pico.model.observation import Observation
 from pico.model.record import record
 from pico.model.trace.report import RunReport
 
 if TYPE_CHECKING:
+    from pico.model.comparing.status import Status
     from pico.model.state import LabState
-    from pico.model.status import Status
     from pico.runs.journal import JournalRecord
 
 Heal = Callable[[Drifted], RunReport | None]
@@ -54,7 +54,7 @@ class Watch:
 
     def status(self) -> Status:
         """Return committed, desired and live side by side."""
-        from pico.model.status import compare
+        from pico.model.comparing.status import compare
 
         folder, seen = self.opened.folder, self.opened.observe()
         head, missed = (

@@ -8,8 +8,8 @@ from dataclasses import replace
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, warning
 from pico.execution.graph import set_back
+from pico.model.comparing.drift import drift_of, uncertain
 from pico.model.diff import Change, diff_observed, show_value
-from pico.model.drift import drift_of, uncertain
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by

@@ -152,7 +152,7 @@ def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup:
 def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> tuple[dict[str, list[Document]], list[Document]]:
     """Return the documents by kind, and those that are meant for others."""
     others: list[Document] = []
-    by_kind: dict[str, list[Document]] = {"Lab": [], "LabState": [], "ComponentType": []}
+    by_kind: dict[str, list[Document]] = {"Lab": [], "LabState": [], "ComponentType": [], "Devices": []}
     sources, wrong = decode_all(files)
     found.extend(wrong)
     for source in sources:
@@ -195,6 +195,8 @@ def _bench(
     if lab is None or wrong or any(part.type not in catalog for part in lab.inventory.values()):
         return None, view_of_broken(document, catalog)
     setup = Setup(lab=lab, catalog=catalog)
+    if documents["Devices"]:
+        setup = _wired(documents["Devices"], setup, found)
     if impossible := [*check_own_parameters(document, setup)]:
         found.extend(impossible)
         return None, view_of_broken(document, catalog)
@@ -202,6 +204,18 @@ def _bench(
     found.extend(misfits)
     misfit = any(d.severity == "error" for d in misfits)
     return (None if misfit else setup), view_of(setup)
+
+
+def _wired(documents: list[Document], setup: Setup, found: list[Diagnostic]) -> Setup:
+    """Return the bench with its instruments, where nothing is wrong with those."""
+    from pico.manifest.checks.wiring import whole_wiring
+    from pico.model.wiring import Wiring
+
+    read = [(document, *read_record(document, "Devices", Wiring)) for document in documents]
+    wiring, wrong = whole_wiring([(document, own) for document, own, _ in read if own], setup)
+    wrong += [d for _, _, misread in read for d in misread]
+    found.extend(wrong)
+    return setup if wrong else replace(setup, wiring=wiring)
 
 
 def _own_types(documents: list[Document], found: list[Diagnostic]) -> tuple[dict[str, ComponentType], set[str]]:

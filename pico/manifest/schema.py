@@ -16,7 +16,7 @@ from pico.resources import schemas_dir
 DRAFT = "http://json-schema.org/draft-07/schema#"
 _NAMED = {"inventory": NAME, "robots": NAME, "cameras": NAME, "datums": NAME, "keep_out": NAME, "tunables": NAME,
           "parameters": NAME, "measurables": NAME, "goals": NAME, "claims": NAME,
-          "slots": PATH_NAME, "regions": PATH_NAME}  # fmt: skip
+          "devices": NAME, "safety_inputs": NAME, "slots": PATH_NAME, "regions": PATH_NAME}  # fmt: skip
 _QUANTITY = [{"type": "number"}, {"type": "string", "pattern": r"^\s*[-+]?[0-9.]+(?:[eE][-+]?[0-9]+)?\s*\S+"}]
 
 
@@ -29,16 +29,19 @@ def schemas() -> dict[str, dict[str, Any]]:
     from pico.model.plan import Plan
     from pico.model.trace.event import Event
     from pico.model.trace.run import Run
+    from pico.model.wiring import Wiring
 
     kinds = {
         "Lab": _manifest("Lab", Lab),
         "LabState": _lab_state(),
         "ComponentType": _manifest("ComponentType", ComponentType),
+        "Devices": _manifest("Devices", Wiring),
     }
     return {
         "lab": _titled("A PICO lab: the bench and its inventory", kinds["Lab"]),
         "lab_state": _titled("A PICO laboratory state", kinds["LabState"]),
         "component_type": _titled("A PICO component type", kinds["ComponentType"]),
+        "devices": _titled("The instruments of a PICO lab", kinds["Devices"]),
         "manifest": _combined(kinds),
         "plan": _titled("A PICO plan, pico.plan/v1", _of(Plan)),
         "event": _titled("An event of an execution, pico.event/v1", _of(Event)),
@@ -83,7 +86,8 @@ def _manifest(kind: str, record: type) -> dict[str, Any]:
     schema = _of(record)
     fields, wanted = dict(schema["properties"]), list(schema["required"])
     metadata = {name: fields.pop(name) for name in METADATA[kind]}
-    metadata["name"] = metadata["name"] | {"pattern": f"^{NAME.pattern}$"}
+    named = METADATA[kind][0]
+    metadata[named] = metadata[named] | {"pattern": f"^{NAME.pattern}$"}
     for name, rule in _NAMED.items():
         if name in fields:
             fields[name] = fields[name] | {"propertyNames": {"pattern": f"^{rule.pattern}$"}}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.model.catalog import (
     Catalog,
@@ -18,16 +19,23 @@ from pico.model.catalog import (
 from pico.model.lab import Lab, Part
 from pico.model.record import digest, record, remembered
 
+if TYPE_CHECKING:
+    from pico.model.wiring import Wiring
+
 EXPOSURE = "exposure"
 """The tunable of a detector that `auto_range` finds."""
 
 
 @record
 class Setup:
-    """A lab together with the component types that its inventory uses: what every computation about a bench needs."""
+    """A lab together with the component types that its inventory uses: what every computation about a bench needs.
+
+    `wiring`: its instruments, where any are known; no part of the digest, for a plan is the same without them.
+    """
 
     lab: Lab
     catalog: Catalog
+    wiring: Wiring | None = None
 
     def type_of(self, component: str) -> ComponentType:
         """Return the type of `component`, with the parameters that are the part's own and how it is restored; raises

@@ -45,7 +45,7 @@ def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[st
     order. Apart from that is what the run itself was at when it was cut short, and what only emptied hands. Raises
     PicoError where the journal can't be read."""
     from pico.bench.recovery import begun_by, document_of, state_before
-    from pico.model.drift import drift_of
+    from pico.model.comparing.drift import drift_of
     from pico.model.observation import live_state
 
     memory = bench.edge.memory

@@ -12,8 +12,8 @@ import json
 from collections.abc import Collection, Iterable
 from datetime import datetime
 
+from pico.model.comparing.drift import drift_of
 from pico.model.diff import deviation, diff_observed, value_deviation
-from pico.model.drift import drift_of
 from pico.model.observation import Observation
 from pico.model.operation import Operation, touched_by
 from pico.model.setup import Setup

@@ -18,14 +18,14 @@ from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
 from pico.model.catalog import Footprint
-from pico.model.drift import drift_of
+from pico.model.comparing.drift import drift_of
+from pico.model.comparing.status import compare
 from pico.model.observation import Observation, Uncertainty, UnknownObject, doubtful, live_state
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
 from pico.model.setup import Setup
 from pico.model.simulated import BadLight, SimErrors
 from pico.model.state import LabState, home_state
-from pico.model.status import compare
 from pico.vision.calibration import Accuracy, Calibration, write_calibration
 
 ERRORS = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005, marker_height=0.1)

@@ -39,7 +39,7 @@ def verdict(setup: Setup, seen: Observation, expect: Sequence[Expectation]) -> t
 
 def not_as_called(setup: Setup, seen: Observation, state: LabState | None, tried: Tried, name: str) -> Diagnostic:
     """Return what to say where an end, called `name`, is not what it was called: `tried.end`."""
-    from pico.model.drift import drift_of
+    from pico.model.comparing.drift import drift_of
 
     off = [c for c in drift_of(setup, seen, state) if not c.tolerated] if state else []
     differs = "; ".join(f"{c.component}.{c.tunable} {c.text}" for c in off[:4])

@@ -57,7 +57,7 @@ def parsed(data: bytes) -> Flat:
         if wrong:
             return Flat(wrong=wrong)
         if kind and isinstance(document.root, Map):
-            _READ[kind](document.root, flat)
+            _READ.get(kind, _nothing)(document.root, flat)
     return flat
 
 
@@ -85,6 +85,10 @@ def _type(root: Map, flat: Flat) -> None:
         flat.units[name.text] = {
             key: str(tunable.get("unit") or "") for key, tunable in declared.items() if isinstance(tunable, dict)
         }
+
+
+def _nothing(root: Map, flat: Flat) -> None:
+    """Devices are no part of a state."""
 
 
 _READ: Mapping[str, Callable[[Map, Flat], None]] = {"LabState": _state, "Lab": _lab, "ComponentType": _type}

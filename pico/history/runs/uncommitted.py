@@ -18,7 +18,7 @@ from pico.edge.link.opening import remembered
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
-from pico.model.drift import drift_of
+from pico.model.comparing.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.state import LabState
 from pico.model.trace.expectation import Standing

@@ -11,13 +11,14 @@ from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Node, Scalar
 
 API = "pico/v1"
-Kind = Literal["Lab", "LabState", "ComponentType"]
-KINDS: tuple[Kind, ...] = ("Lab", "LabState", "ComponentType")
+Kind = Literal["Lab", "LabState", "ComponentType", "Devices"]
+KINDS: tuple[Kind, ...] = ("Lab", "LabState", "ComponentType", "Devices")
 READ_ELSEWHERE = ("Recipe",)
 METADATA: dict[str, tuple[str, ...]] = {
     "Lab": ("name", "title"),
     "LabState": ("lab",),
     "ComponentType": ("name", "title", "description"),
+    "Devices": ("lab",),
 }
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 PATH_NAME = re.compile(r"[a-z][a-z0-9_]*(?:/[a-z0-9][a-z0-9_]*)*")
@@ -72,7 +73,7 @@ def headless(document: Document, parts: Container[str]) -> list[Diagnostic]:
 def _declared(document: Document, root: Map) -> tuple[Kind | None, list[Diagnostic]]:
     node, source = root.get("kind"), document.source
     if node is None:
-        hint = "add `kind: LabState` (or `Lab`, `ComponentType`)"
+        hint = "add `kind: LabState` (or `Lab`, `ComponentType`, `Devices`)"
         return None, [_at(source, root, "kind", "`kind` is missing", hint)]
     text = node.text if isinstance(node, Scalar) else "[...]"
     if text in READ_ELSEWHERE:

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
+from pico.model.comparing.drift import uncertain
 from pico.model.diff import diff_observed
-from pico.model.drift import uncertain
 from pico.model.observation import Observation
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of

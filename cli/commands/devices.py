@@ -1,0 +1,80 @@
+"""`pico devices`: the instruments of a bench."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import ExitCode
+
+from ..arguments import group
+from ..session import Session
+from ..terminal.waiting import waiting
+from ..views import devices as view
+
+app = group(
+    help="List the instruments of the bench, and ask whether they answer.",
+    examples=("pico devices", "pico devices check", "pico devices check p1 --emulate", "pico devices identify p1"),
+    alone=True,
+)
+
+Names = Annotated[list[str] | None, typer.Argument(metavar="DEVICE", help="Which ones; without any, all.")]
+Emulate = Annotated[bool, typer.Option("--emulate", help="Ask emulators in their place, over the same wires.")]
+
+
+@app.callback()
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        list_(context)
+
+
+@app.command("list")
+def list_(context: typer.Context) -> None:
+    """List the devices that the lab's files name; asks none. `pico devices` alone does the same.
+
+    How far a driver was tried stands beside each: documented, emulated, against the vendor's firmware, on a device.
+
+    Examples:
+      pico devices list
+    """
+    from pico.backends.instruments import instruments, listed
+
+    session = Session.of(context)
+    session.show(view, listed(instruments(session.folder)))
+
+
+@app.command()
+def check(context: typer.Context, devices: Names = None, emulate: Emulate = False) -> int:
+    """Ask devices who they are and what they read. Nothing moves.
+
+    Exit code 1 where one does not answer, or another one does than the lab names.
+
+    Examples:
+      pico devices check
+      pico devices check p1 --emulate
+    """
+    return _asked(context, devices, emulate=emulate, whoever=False)
+
+
+@app.command()
+def identify(context: typer.Context, devices: Names = None, emulate: Emulate = False) -> int:
+    """Ask who answers at the addresses, whatever the lab says, and show what to write into `identity:`.
+
+    Examples:
+      pico devices identify p1
+    """
+    return _asked(context, devices, emulate=emulate, whoever=True)
+
+
+def _asked(context: typer.Context, devices: list[str] | None, *, emulate: bool, whoever: bool) -> int:
+    from pico.backends.instruments import asked, instruments
+
+    session = Session.of(context)
+    entries = instruments(session.folder, devices or ())
+    with waiting("Asking the devices"):
+        rows = asked(entries, emulate=emulate, whoever=whoever)
+    session.show(view, rows, identify=whoever)
+    wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
+    session.tell(wrong)
+    return ExitCode.ERROR if wrong else ExitCode.DONE

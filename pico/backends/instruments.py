@@ -1,0 +1,85 @@
+"""The instruments of a lab: which there are, whether they answer, and who they are; also those that are emulated."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.drivers.checking import Answer, anybody, checked
+from pico.drivers.driver import Driver
+from pico.drivers.registry import driver, missing
+from pico.emulators.behind import Alone
+from pico.emulators.registry import EmulatedBench
+from pico.manifest.load import find_lab, load_folder
+from pico.model.record import record
+from pico.model.wiring import DeviceEntry
+
+_HINT = "add a file with `kind: Devices` and `devices:`; docs/how-to/hardware.md has one"
+
+
+@record
+class InstrumentRow:
+    """A device of a lab: whose it is, how it is reached, how far its driver was tried, and what it answered, where it
+    was asked. `install`: what its driver needs and is not installed."""
+
+    name: str
+    of: str
+    kind: str
+    driver: str
+    maturity: str
+    address: str
+    install: str = ""
+    answer: Answer | None = None
+
+
+def instruments(folder: Path, names: Sequence[str] = ()) -> dict[str, DeviceEntry]:
+    """Return the devices of the lab that `folder` lies in, all or those of these names; raises PicoError for what is
+    wrong with its manifests, where it has none, and for a name that there is not."""
+    setup, _ = load_folder(find_lab(folder)).require()
+    known = setup.wiring.devices if setup.wiring else {}
+    if not known:
+        raise PicoError(error("no-devices", f"the lab {setup.lab.name} has no devices", hint=_HINT))
+    if unknown := [name for name in names if name not in known]:
+        raise PicoError(
+            [
+                error("unknown-device", f"there is no device `{n[:40]}`", hint=did_you_mean(n[:40], known))
+                for n in unknown
+            ]
+        )
+    return {name: entry for name, entry in known.items() if not names or name in names}
+
+
+def listed(entries: dict[str, DeviceEntry], answers: dict[str, Answer] | None = None) -> list[InstrumentRow]:
+    """Return a row a device."""
+    return [_row(name, entry, driver(entry.driver), (answers or {}).get(name)) for name, entry in entries.items()]
+
+
+def _row(name: str, entry: DeviceEntry, found: Driver, answer: Answer | None) -> InstrumentRow:
+    tried = f"{found.maturity}, {found.tried}" if found.tried else found.maturity
+    address = " ".join(f"{key}={value}" for key, value in entry.address.items())
+    return InstrumentRow(
+        name=name, of=entry.of or name, kind=found.kind, driver=entry.driver, maturity=tried, address=address,
+        install=missing(found), answer=answer,
+    )  # fmt: skip
+
+
+def asked(entries: dict[str, DeviceEntry], *, emulate: bool = False, whoever: bool = False) -> list[InstrumentRow]:
+    """Return a row a device with what it answers, or, with `emulate`, what its emulator does, behind which there is
+    nothing; `whoever`: also where another one answers than the lab says. Raises PicoError for one without emulator."""
+    wanted = anybody(entries) if whoever else entries
+    if not emulate:
+        return listed(entries, asyncio.run(checked(wanted)))
+    bench = EmulatedBench(emulated(entries), lambda name, entry: Alone())
+    try:
+        there = bench.entries
+        return listed(there, asyncio.run(checked(anybody(there) if whoever else there)))
+    finally:
+        bench.close()
+
+
+def emulated(entries: dict[str, DeviceEntry]) -> dict[str, DeviceEntry]:
+    """Return the entries with the emulator that their driver names, where they name none."""
+    return {n: e if e.emulator else replace(e, emulator=driver(e.driver).emulator) for n, e in entries.items()}

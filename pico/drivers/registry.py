@@ -1,0 +1,92 @@
+"""Drivers by name, from the entry points `pico.drivers`: names are read without importing any, a driver is imported
+when it is opened, and its vendor's library when its link is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from importlib.util import find_spec
+from typing import Any
+
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.drivers.bus import Bus
+from pico.drivers.driver import Driver
+from pico.drivers.protocols import Instrument
+from pico.model.wiring import DeviceEntry
+
+GROUP = "pico.drivers"
+
+
+@cache
+def known() -> Mapping[str, EntryPoint]:
+    """Return the drivers that are installed, by name; imports none."""
+    return {entry.name: entry for entry in entry_points(group=GROUP)}
+
+
+def driver(name: str) -> Driver:
+    """Return a driver, without its vendor's library; raises PicoError for a name that there is not, and for a plug-in
+    that can't be imported."""
+    if name not in known():
+        raise PicoError(error("driver", f"there is no driver `{name[:40]}`", hint=did_you_mean(name[:40], known())))
+    try:
+        found: Driver = known()[name].load()
+    except Exception as exc:
+        raise PicoError(error("driver", f"the driver `{name}` can't be imported: {exc}")) from exc
+    return found
+
+
+def missing(found: Driver) -> str:
+    """Return how to install what a driver needs and is not installed; '' where all is there."""
+    if found.needs is None:
+        return ""
+    module, extra = found.needs
+    return "" if find_spec(module.partition(".")[0]) else f"pip install 'pico-lab[{extra}]'"
+
+
+class Buses:
+    """The links of a bench: devices whose addresses lead over the same one share it, and its thread."""
+
+    def __init__(self) -> None:
+        self._buses: dict[tuple[object, ...], Bus[Any]] = {}
+
+    def opened(self, name: str, entry: DeviceEntry) -> Instrument:
+        """Return the instrument of an entry; nothing of it is asked yet: `connect` does that. Raises PicoError where
+        there is no such driver, what it needs is not installed, or the entry does not go with it."""
+        found = driver(entry.driver)
+        if install := missing(found):
+            module = found.needs[0] if found.needs else ""
+            text = f"{name} needs `{module}`, which is not installed"
+            raise PicoError(error("missing-extra", text, hint=install, address=name))
+        require_fit(name, entry, found)
+        link = found.link or f"{entry.driver} of {name}"
+        key = (link, *(str(entry.address.get(part, "")) for part in found.bus))
+        if key not in self._buses:
+            self._buses[key] = Bus(lambda: found.opened(entry), found.closed)
+        return found.made(name, entry, self._buses[key])
+
+    async def close(self) -> None:
+        """Close every link."""
+        for bus in self._buses.values():
+            await bus.close()
+
+
+def require_fit(name: str, entry: DeviceEntry, found: Driver) -> None:
+    """Raise PicoError for what an entry says and its driver does not know, and for an address that lacks something."""
+    said = [("address", key, found.address) for key in entry.address]
+    said += [("limits", key, found.properties) for key in entry.limits]
+    said += [("map", wired.property, found.properties) for wired in entry.map.values()]
+    wrong = [
+        error(
+            "device", f"`{entry.driver}` has no `{key[:40]}` ({where} of {name})", address=name,
+            hint=did_you_mean(key[:40], has) or f"known: {', '.join(has) or 'none'}",
+        )
+        for where, key, has in said if key not in has
+    ]  # fmt: skip
+    wrong += [
+        error("device", f"the address of {name} has no `{key}`", hint=f"`{key}` is {found.address[key]}", address=name)
+        for key in found.bus
+        if key not in entry.address
+    ]
+    if wrong:
+        raise PicoError(wrong)

@@ -1,0 +1,143 @@
+"""A bus of Thorlabs Elliptec rotation mounts ELL14 on a serial line, as the vendor's protocol manual describes them.
+
+ASCII without terminators from the host, replies end in CRLF: `<address><two letters><hex>`. `in` who, `gs` status
+(reading it clears it), `gp` position, `ma` and `mr` moves, `ho` home, `st` stop, `gj` and `sj` the jog step, kept while
+it has power. A move is answered when it has ended: `PO` with the position, or `GS` with what went wrong.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+from pico.emulators.behind import Behind, Emulator
+from pico.emulators.motion import Motion
+from pico.emulators.serving import SerialServed
+from pico.model.wiring import DeviceEntry
+
+PULSES = 143360
+"""Of one turn of an ELL14."""
+SPEED = 430.0
+"""Of an ELL14 [deg/s]."""
+MECHANICAL_TIMEOUT, UNKNOWN_COMMAND, OUT_OF_RANGE, BUSY = 2, 3, 4, 9
+_COMMAND = re.compile(rb"([0-9A-F])(in|gs|gp|st|gj|go|ho[01]|(?:ma|mr|sj|so)[0-9A-Fa-f]{8})")
+
+
+class Mount:
+    """One ELL14: what is read and written behind it is `angle` [deg]; `stuck` [deg], where it is not None, is where it
+    does not get past."""
+
+    def __init__(self, serial: str, behind: Behind) -> None:
+        self.serial, self.behind = serial, behind
+        self._motion: Motion | None = None
+        self._status, self._jog, self._offset = 0, PULSES // 8, 0
+
+    def answer(self, command: str) -> str:
+        """Return the reply to one command, without address; '' where it comes once the motion has ended."""
+        name, hexadecimal = command[:2], command[2:]
+        now = self.behind.now()
+        if name in ("ma", "mr", "ho") and self._motion and not self._motion.ended(now):
+            return f"GS{BUSY:02X}"
+        if name in ("ma", "mr"):
+            asked = _signed(hexadecimal) + (self._pulses(now) if name == "mr" else 0)
+            return self._go(asked * 360 / PULSES, now)
+        if name == "ho":
+            return self._go(self._offset * 360 / PULSES, now)
+        if name == "st":
+            return self._stopped(now)
+        return self._told(name, hexadecimal, now)
+
+    def ended(self) -> str:
+        """Return what it says of a motion that has ended since, once; and lets the world have it on the way."""
+        motion, now = self._motion, self.behind.now()
+        if motion is None:
+            return ""
+        self.behind.write("angle", motion.at(now))
+        if not motion.ended(now):
+            return ""
+        self._motion = None
+        if motion.reached != motion.end:
+            self._status = MECHANICAL_TIMEOUT
+            return f"GS{MECHANICAL_TIMEOUT:02X}"
+        return f"PO{_hex(self._pulses(now))}"
+
+    def _told(self, name: str, hexadecimal: str, now: float) -> str:
+        if name == "in":
+            return f"IN0E{self.serial:>08}2026" + "17" + "01" + f"{360:04X}" + f"{PULSES:08X}"
+        if name == "gs":
+            status = BUSY if self._motion else self._status
+            self._status = 0
+            return f"GS{status:02X}"
+        if name == "gp":
+            return f"PO{_hex(self._pulses(now))}"
+        if name in ("sj", "so"):
+            if name == "sj":
+                self._jog = _signed(hexadecimal)
+            else:
+                self._offset = _signed(hexadecimal)
+            return "GS00"
+        return f"GJ{_hex(self._jog)}" if name == "gj" else f"HO{_hex(self._offset)}"
+
+    def _go(self, angle: float, now: float) -> str:
+        self._motion = Motion(self._angle(now), angle, now, SPEED, self.behind.read("stuck"))
+        return ""
+
+    def _stopped(self, now: float) -> str:
+        if self._motion:
+            self.behind.write("angle", self._motion.at(now))
+            self._motion = None
+        return "GS00"
+
+    def _angle(self, now: float) -> float:
+        return self._motion.at(now) if self._motion else float(self.behind.read("angle") or 0.0)
+
+    def _pulses(self, now: float) -> int:
+        return round(self._angle(now) / 360 * PULSES)
+
+
+def _signed(hexadecimal: str) -> int:
+    value = int(hexadecimal, 16)
+    return value - (1 << 32) if value & (1 << 31) else value
+
+
+def _hex(value: int) -> str:
+    return f"{value & 0xFFFFFFFF:08X}"
+
+
+class MountBus:
+    """Mounts by their bus address, `0` to `F`: whom nobody has is not answered for."""
+
+    def __init__(self, mounts: Mapping[str, Mount]) -> None:
+        self._mounts = mounts
+        self._rest = b""
+
+    def heard(self, data: bytes) -> bytes:
+        self._rest += data
+        said = ""
+        while self._rest:
+            found = _COMMAND.match(self._rest)
+            if found:
+                self._rest = self._rest[found.end() :]
+                address = found[1].decode()
+                if (mount := self._mounts.get(address)) and (reply := mount.answer(found[2].decode())):
+                    said += f"{address}{reply}\r\n"
+            elif len(self._rest) < 11 and re.match(rb"[0-9A-F](?:[a-z]|$)", self._rest):
+                break  # the rest of it is still to come
+            else:
+                self._rest = self._rest[1:]
+        return said.encode()
+
+    def due(self) -> bytes:
+        replies = ((address, mount.ended()) for address, mount in self._mounts.items())
+        return "".join(f"{address}{reply}\r\n" for address, reply in replies if reply).encode()
+
+
+def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> SerialServed:
+    mounts = {
+        str(entry.address.get("bus", "0")): Mount(str(entry.identity.get("serial", "00000000")), behind)
+        for entry, behind in devices.values()
+    }
+    return SerialServed(MountBus(mounts))
+
+
+BUS = Emulator(started=_started, bus=("port",))

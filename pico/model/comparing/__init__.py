@@ -1,0 +1,1 @@
+"""How the live bench differs from a state: what a person is told of it."""
