@@ -1,0 +1,255 @@
+"""An xArm7 that follows joint trajectories of our own timing; the driver `xarm.arm`."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+import socket
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Any
+
+import numpy as np
+
+from pico.diagnostics import PicoError, error
+from pico.drivers.bus import LONGEST, Bus
+from pico.drivers.driver import Driver
+from pico.drivers.line import Line
+from pico.drivers.protocols import ArmState, Identity
+from pico.drivers.xarm.faults import clearable, told
+from pico.drivers.xarm.library import CONTROL_PORT, imported
+from pico.drivers.xarm.link import Link, identity
+from pico.drivers.xarm.path import Path, checked
+from pico.drivers.xarm.settings import FENCE, PROPERTIES, differing, settings
+from pico.drivers.xarm.streaming import BRAKE, Stream
+from pico.model.wiring import DeviceEntry
+
+ASTRAY = 0.02
+"""How far from a path's first posture an arm may stand to follow it [rad]."""
+_MOVING, _STOPPED, _RESET = 1, 4, 5
+_BY_THE_BOX, _BY_SET_POINTS = 0, 1
+_RETURNED = 0.5
+"""How long after a stop it may take until the arm is at rest [s]."""
+
+
+class XArm:
+    """Implements `pico.drivers.protocols.Arm`."""
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Link]) -> None:
+        """Open nothing yet. Raises PicoError for settings that make no sense."""
+        self.name, self.settings = name, settings(name, entry)
+        self._line = Line(name, bus, entry.identity, self._identified)
+        self._link: Link | None = None
+        self._ready_link: Link | None = None
+        self._stream: Stream | None = None
+
+    async def connect(self) -> Identity:
+        """Open the link and ask who answers; moves nothing. Raises PicoError."""
+        await imported(self.name)
+        return await self._line.connect()
+
+    async def ready(self) -> ArmState:
+        """Configure, read back, enable. Raises PicoError for a fault, and for all that is read back otherwise."""
+        stops = self._line.stops
+        return await self._line.ask("get ready", lambda link: self._made_ready(link, stops), within=LONGEST)
+
+    async def state(self) -> ArmState:
+        """Return how it is; raises PicoError where the link is lost: where its last report is too old, too."""
+        return await self._line.ask("tell its state", self._state)
+
+    async def follow(self, times: np.ndarray, joints: np.ndarray, *, doing: str = "") -> ArmState:
+        """Follow `joints` (n, 7) [rad] at `times` (n,) [s], and return once it is at rest there; `doing` names the
+        operation in what is raised.
+
+        Raises PicoError where it does not stand at the first of them, was stopped, met a fault, or the link was lost.
+        """
+        path = checked(self.name, times, joints, self.settings)
+        stream = await self._line.move("begin to move", lambda link: self._begun(link, path, doing))
+        try:
+            how = await asyncio.wrap_future(stream.done)
+        except ConnectionError as exc:
+            self._ready_link = None
+            with suppress(PicoError):
+                await self._line.ask("be let go of", _lost)
+            during = f" during {doing}" if doing else ""
+            text, hint = f"{self.name} was lost{during}: {exc}", "look at the arm; then get it ready again"
+            raise PicoError(error("device-lost", text, hint=hint, address=self.name)) from exc
+        except asyncio.CancelledError:
+            stream.end("halted")
+            raise
+        if how != "moves":
+            text = f"{self.name} was {how} on its way{f' during {doing}' if doing else ''}"
+            raise PicoError(error("device-stopped", text, address=self.name))
+        return await self.state()
+
+    async def halt(self) -> None:
+        """Come to rest on the path, decelerated; `follow` then raises PicoError."""
+        if self._stream:
+            self._stream.end("halted")
+            await asyncio.to_thread(self._stream.join, BRAKE + _RETURNED)
+
+    async def stop(self) -> None:
+        """Stop all motion now, decelerated, without waiting for another call."""
+        stream, link = self._stream, self._link
+        if stream:
+            stream.end("stopped")
+        if link is not None:
+            await asyncio.to_thread(self._still, link)
+        await self._line.stop(self._still)
+
+    async def recover(self, *, by_person: bool = False) -> ArmState:
+        """Clear a fault that may be cleared, and get ready; `by_person`: any fault, for a person looked at the arm and
+        says so. Raises PicoError naming what a person must do."""
+        await self._line.ask("clear its fault", lambda link: self._cleared(link, by_person))
+        return await self.ready()
+
+    async def close(self) -> None:
+        """Let go of the link."""
+        if self._stream:
+            self._stream.end("stopped")
+        await self._line.close()
+
+    def _identified(self, link: Link) -> Identity:
+        self._link = link
+        return identity(self.name, link)
+
+    def _state(self, link: Link) -> ArmState:
+        link.require_heard()
+        state, fault = link.state(), link.fault()
+        on = all(link.arm.motor_enable_states[:7]) and state not in (_STOPPED, _RESET) and not fault
+        enabled = bool(on and link is self._ready_link)
+        moving, at = state == _MOVING, link.joints()
+        return ArmState(joints=at, age=link.age, moving=moving, enabled=enabled, fault=fault)
+
+    def _ask(self, link: Link, what: str, call: Callable[[], Any], *more: int) -> Any:
+        return link.ask(self.name, what, call, taken=(0, 2, *more))
+
+    def _made_ready(self, link: Link, stops: int) -> ArmState:
+        self._ready_link = None
+        if fault := link.fault():
+            raise PicoError(told(self.name, fault))
+        if link.state() == _MOVING:
+            text, hint = f"{self.name} moves, and not by PICO", "end the other program that moves it"
+            raise PicoError(error("arm-moves", text, hint=hint, address=self.name))
+        for what, call, more in self._configuration(link):
+            self._line.require_running(stops, "it was to get ready")
+            self._ask(link, what, call, *more)
+        self._require_inside(link)
+        self._ask(link, "put up its fence", lambda: link.arm.set_fence_mode(True))
+        link.await_reports(2)  # the one that was on its way may be older than what was told
+        if wrong := differing(self.name, self.settings, link.arm):
+            raise PicoError(wrong)
+        self._line.require_running(stops, "it was to get ready")
+        self._ask(link, "enable its motors", lambda: link.arm.motion_enable(True))
+        self._start(link)
+        link.await_reports(2)
+        self._ready_link = link
+        found = self._state(link)
+        if not found.enabled:
+            self._ready_link = None
+            raise PicoError(error("arm-refused", f"{self.name} did not enable its motors", address=self.name))
+        return found
+
+    def _configuration(self, link: Link) -> list[tuple[str, Callable[[], Any], tuple[int, ...]]]:
+        """What it is told, in order. What changes how it moves resets the box, which then is "not ready" (9), as it
+        should be: the mode comes last."""
+        arm, to = link.arm, self.settings
+        ranges = [v for pair in to.ranges for v in pair]
+        return [
+            ("hold still", lambda: arm.set_state(4), ()),
+            ("clear its warnings", arm.clean_warn, ()),
+            ("take its gravity direction", lambda: arm.set_gravity_direction(list(to.gravity), wait=False), ()),
+            ("take its load", lambda: arm.set_tcp_load(to.load, list(to.load_center)), (9,)),
+            ("take its tool offset", lambda: arm.set_tcp_offset(list(to.offset), is_radian=True, wait=False), ()),
+            ("take its tool's shape", lambda: arm.set_collision_tool_model(to.tool_model), ()),
+            ("look out for itself", lambda: arm.set_self_collision_detection(True), ()),
+            ("take its collision sensitivity", lambda: arm.set_collision_sensitivity(to.sensitivity), ()),
+            ("hold still", lambda: arm.set_state(4), ()),  # the library has just let it go
+            ("not to rebound", lambda: arm.set_collision_rebound(False), ()),
+            ("take its tool's speed", lambda: arm.set_reduced_max_tcp_speed(to.tool_speed), ()),
+            ("take its joints' speed", lambda: arm.set_reduced_max_joint_speed(to.joint_speed, is_radian=True), ()),
+            ("take its joint range", lambda: arm.set_reduced_joint_range(ranges, is_radian=True), ()),
+            ("take its fence", lambda: arm.set_reduced_tcp_boundary(to.boundary), ()),
+            ("keep these limits", lambda: arm.set_reduced_mode(True), ()),
+        ]
+
+    def _require_inside(self, link: Link) -> None:
+        """Raise PicoError where the tool, its offset included, is outside the fence: putting that up is a fault."""
+        at = self._ask(link, "tell where its tool is", lambda: link.arm.get_position(is_radian=True))
+        for axis, v, (low, high) in zip("xyz", at, (self.settings.fence[a] for a in FENCE), strict=False):
+            if not low <= v <= high:
+                text = f"the tool of {self.name} is outside its fence: {axis} is {v:.0f} mm, of {low:.0f} to {high:.0f}"
+                hint = f"move it there by hand, or correct `limits: {axis}` or the tool's offset in `settings`"
+                raise PicoError(error("arm-outside", text, hint=hint, address=self.name))
+
+    def _start(self, link: Link) -> None:
+        mode = _BY_SET_POINTS if self.settings.set_points else _BY_THE_BOX
+        self._ask(link, "change its mode", lambda: link.arm.set_mode(mode))
+        self._ask(link, "start", lambda: link.arm.set_state(0))
+
+    def _begun(self, link: Link, path: Path, doing: str) -> Stream:
+        link.require_heard()
+        if link is not self._ready_link:
+            text, hint = f"{self.name} is not ready to move", "get it ready first: its settings may be lost"
+            raise PicoError(error("arm-refused", text, hint=hint, address=self.name))
+        if self._stream and not self._stream.done.done():
+            raise PicoError(error("arm-moves", f"{self.name} is moving already", address=self.name))
+        if fault := link.fault():
+            raise PicoError(told(self.name, fault, doing))
+        at = link.joints()
+        off = max(abs(a - b) for a, b in zip(at, path.joints[0], strict=True))
+        if off > ASTRAY:
+            text = f"{self.name} does not stand where its path begins: a joint is {math.degrees(off):.1f} deg off"
+            raise PicoError(
+                error("arm-astray", text, hint="look again, and plan from where it stands", address=self.name)
+            )
+        if link.state() in (_STOPPED, _RESET):
+            self._start(link)
+        to = self.settings
+        self._stream = Stream(self.name, link, path, doing=doing, pace=to.pace, set_points=to.set_points)
+        self._stream.start()
+        return self._stream
+
+    def _still(self, link: Link) -> None:
+        if self._stream and not self._stream.done.done():
+            self._stream.end("stopped")
+            self._stream.join(BRAKE + _RETURNED)
+        self._ask(link, "stop", lambda: link.arm.set_state(_STOPPED))
+
+    def _cleared(self, link: Link, by_person: bool) -> None:
+        fault = link.fault()
+        if not fault:
+            return
+        if not (by_person or clearable(fault)):
+            raise PicoError(told(self.name, fault))
+        self._ask(link, "clear its fault", link.arm.clean_error, 1)
+        if still := link.fault():  # asked: what the library has may be 0.2 s old
+            raise PicoError(told(self.name, still))
+
+
+def _lost(link: Link) -> None:
+    """Have the bus let go of a link that was lost: the next call opens another."""
+    raise ConnectionError("it was lost")
+
+
+def _opened(entry: DeviceEntry) -> Link:
+    host, port = str(entry.address["host"]), int(entry.address.get("port", CONTROL_PORT))
+    return Link.opened(socket.gethostbyname(host), port)  # the library takes any other word for a serial port
+
+
+DRIVER = Driver(
+    kind="arm",
+    made=XArm,
+    opened=_opened,
+    closed=Link.close,
+    address={
+        "host": "the name or IPv4 address of the control box",
+        "port": f"its control port, {CONTROL_PORT} as sold",
+    },
+    bus=("host",),
+    properties=PROPERTIES,
+    needs=("xarm", "xarm"),
+    maturity="emulated",
+    emulator="xarm",
+    link="xarm",
+)

@@ -1,0 +1,100 @@
+"""The vendor's library, imported when it is needed and kept to itself.
+
+As it comes it prints to the terminal, from threads of its own, changes the timeout of every new socket of the process
+(`socket.setdefaulttimeout`), prefers a Unix socket in the temporary directory to the address that it was given, and
+may look for its control box for minutes. Reports it takes only from the vendor's port numbers.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import io
+import logging
+import socket
+import sys
+import threading
+from functools import cache
+from typing import Any
+
+from pico.diagnostics import PicoError, error
+
+CONTROL_PORT = 502
+ANSWER = 0.7
+"""How long one request may take [s]."""
+OPENING = 1.5
+"""How long it may take until a control box has said what it is, and reported once [s]."""
+
+_LOCK = threading.Lock()
+
+
+class _Sockets:
+    """The module `socket` for the vendor's library, without what would change the whole process."""
+
+    def __getattr__(self, name: str) -> object:
+        """What `socket` has; the library sets the timeout of each of its own sockets as well."""
+        return _ignored if name == "setdefaulttimeout" else getattr(socket, name)
+
+
+@cache
+def library() -> Any:
+    """Return the vendor's class of an arm; raises ImportError where the extra `xarm` is not installed."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        from xarm.core.comm import socket_port
+        from xarm.core.utils import log
+        from xarm.wrapper import XArmAPI
+    for quiet in (log.logger, log.origin_logger, log.Logger.logger):
+        quiet.handlers.clear()
+        quiet.addHandler(logging.NullHandler())
+        quiet.propagate = False
+    for name, module in list(sys.modules.items()):
+        if name.startswith("xarm."):
+            module.__dict__["print"] = _ignored
+    socket_port.__dict__["socket"] = _Sockets()
+    return XArmAPI
+
+
+async def imported(name: str) -> None:
+    """Import the library, which takes seconds, before device `name` has a deadline. Raises PicoError without it."""
+    try:
+        await asyncio.to_thread(library)
+    except ImportError as exc:
+        text = f"{name} needs the vendor's library, which can't be imported: {exc}"
+        raise PicoError(error("missing-extra", text, hint="pip install 'pico-lab[xarm]'", address=name)) from exc
+
+
+def _ignored(*args: object, **options: object) -> None:
+    """Stand in for what the library is not to do: `print`, for one."""
+
+
+def connected(host: str, port: int) -> Any:
+    """Return an open connection to the control box at an IPv4 address, in radians, with reports.
+
+    Raises ConnectionError where none answers within OPENING.
+    """
+    made = library()(host, is_radian=True, do_not_open=True, forbid_uds=True, check_joint_limit=False)
+    failed: list[BaseException] = []
+
+    def connect() -> None:
+        try:
+            made.connect()
+        except BaseException as exc:
+            failed.append(exc)
+
+    with _LOCK:  # the port is one of the process, in this library
+        from xarm.core.config.x_config import XCONF
+
+        XCONF.SocketConf.TCP_CONTROL_PORT = port
+        opening = threading.Thread(target=connect, daemon=True, name="xarm connect")
+        opening.start()
+        opening.join(OPENING)
+    if opening.is_alive() or failed or not made.connected:
+        dropped(made)
+        raise ConnectionError(f"no control box answers at {host}:{port}")
+    made.set_timeout(ANSWER)
+    return made
+
+
+def dropped(made: Any) -> None:
+    """Close a connection without waiting for its threads; they end by themselves."""
+    threading.Thread(target=made.disconnect, daemon=True, name="xarm disconnect").start()

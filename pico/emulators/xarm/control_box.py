@@ -1,0 +1,194 @@
+"""The control box itself, without any wire: registers in, answers out, at a time that is told to it.
+
+States (support article on mode and state): 1 in motion, 2 ready, 3 paused, 4 stopped, 5 reset by a changed setting,
+6 coming to rest. Modes: 0 the box plans, 1 set-points, 4 joint velocity. Assumed, since no page says: a set-point in
+another mode is answered as invalid; one more than `_JUMP` from the last is fault 24.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter, deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from pico.emulators.xarm.claw import Claw
+from pico.emulators.xarm.kinematics import tool_pose
+from pico.emulators.xarm.motions import Driven, Followed, Motion, Planned
+from pico.motion.types import Joints
+from pico.motion.xarm7 import LIMITS
+
+READY, MOVING, PAUSED, STOPPED, RESET, SLOWING = 2, 1, 3, 4, 5, 6
+POSITION, SERVO, VELOCITY = 0, 1, 4
+BUTTONS = (1, 2, 3)
+"""Faults of the emergency stops: they come back as long as one is pressed."""
+UNPOWERED = (*BUTTONS, *range(10, 18))
+"""Faults that take the power from the motors."""
+_JUMP = 0.3
+_ROUNDING = 1e-4
+
+
+@dataclass
+class Settings:
+    """What is set in the box; lost when it restarts, but for what was saved."""
+
+    offset: tuple[float, ...] = (0.0,) * 6
+    load: tuple[float, ...] = (0.0,) * 4
+    sensitivity: int = 3
+    teaching: int = 3
+    gravity: tuple[float, ...] = (0.0, 0.0, -1.0)
+    reduced: bool = False
+    reduced_tool_speed: float = 1000.0
+    reduced_joint_speed: float = math.pi
+    joint_range: tuple[float, ...] = tuple(v for pair in LIMITS for v in pair)
+    boundary: tuple[int, ...] = (9999, -9999, 9999, -9999, 9999, -9999)
+    fence: bool = False
+    rebound: bool = False
+    self_collision: bool = False
+    tool_model: int = 0
+    tool_size: tuple[float, ...] = (0.0,) * 6
+    jerks: dict[int, float] = field(default_factory=lambda: {31: 1000.0, 32: 50000.0, 33: 20.0, 34: 20.0})
+
+
+@dataclass
+class ControlBox:
+    """An xArm7's control box, `joints` [rad] where the arm stands.
+
+    `moved(joints, seconds)` is told every step, and returns a fault that this meant or 0.
+    """
+
+    joints: Joints
+    serial: str = "XI130500000000"
+    box_serial: str = "AC130500000000"
+    firmware: str = "v2.7.1"
+    axes: int = 7
+    model: int = 7
+    claw: Claw = field(default_factory=Claw)
+    moved: Callable[[Joints, float], int] | None = None
+    now: float = 0.0
+    mode: int = POSITION
+    state: int = STOPPED
+    error: int = 0
+    warning: int = 0
+    enabled: bool = False
+    pressed: int = 0
+    settings: Settings = field(default_factory=Settings)
+    saved: Settings = field(default_factory=Settings)
+    queue: deque[tuple[Joints, float, float, int]] = field(default_factory=deque)
+    motion: Motion | None = None
+    finished: list[tuple[int, int]] = field(default_factory=list)
+    """Transactions whose motion is over, with how it ended (0: there); told to who asked for that by register 254."""
+    requested: Counter[int] = field(default_factory=Counter)
+    unknown: list[int] = field(default_factory=list)
+    _doing: int = 0
+
+    @property
+    def status(self) -> int:
+        """The status byte of every answer (p05)."""
+        stuck = self.state in (STOPPED, RESET) or self.error or not self.enabled
+        return (0x40 if self.error else 0) | (0x20 if self.warning else 0) | (0x10 if stuck else 0)
+
+    def reset(self) -> None:
+        """End all motion and wait to be started again, as after any setting that changes how the arm moves."""
+        self.halt(RESET if self.state != STOPPED else STOPPED)
+        self.mode = POSITION
+
+    def halt(self, state: int) -> None:
+        """End all motion where it is, with nothing left to do."""
+        self.queue.clear()
+        self.motion, self.state, self._doing = None, state, 0
+
+    def fail(self, fault: int) -> None:
+        """Come to a fault: stopped, and without power where it is one of the motors' or of an emergency stop."""
+        self.halt(STOPPED)
+        self.error = fault
+        if fault in UNPOWERED:
+            self.enabled = False
+
+    def clear(self) -> None:
+        """Forget a fault, unless an emergency stop is still pressed."""
+        self.error = self.pressed
+
+    def advance(self, now: float) -> None:
+        """Go on to a later time [s of the emulated clock]."""
+        self.now = max(now, self.now)
+        self.claw.advance(self.now)
+        if self.state not in (MOVING, READY) or self.error:
+            return
+        if self.motion is None and self.queue:
+            end, speed, acceleration, self._doing = self.queue.popleft()
+            self.motion = Planned(self.joints, end, speed, acceleration, self.now)
+        if self.motion is None:
+            self.state = READY
+            return
+        there = self.motion.at(self.now)
+        if there != self.joints:
+            self._step(there)
+        if self.motion is not None:
+            self._end_of(self.motion)
+
+    def _step(self, joints: Joints) -> None:
+        fault = self._forbidden(joints)
+        if not fault:
+            self.joints = joints
+            fault = self.moved(joints, self.now) if self.moved else 0
+        if fault:
+            self.fail(fault)
+        else:
+            self.state = MOVING
+
+    def _end_of(self, motion: Motion) -> None:
+        if not motion.over(self.now):
+            return
+        if isinstance(motion, Planned):
+            self.finished.append((self._doing, 0))
+        self._doing = 0
+        if not isinstance(motion, Followed):
+            self.motion = None
+        if not self.queue:
+            self.state = READY
+
+    def _forbidden(self, joints: Joints) -> int:
+        """The fault that a posture is: 23 beyond a joint's range, 35 where the tool is beyond the fence."""
+        ranges = self.settings.joint_range if self.settings.reduced else Settings.joint_range
+        for angle, low, high in zip(joints, ranges[::2], ranges[1::2], strict=True):
+            if not low - _ROUNDING <= angle <= high + _ROUNDING:
+                return 23
+        return 35 if self.settings.fence and self.outside(joints) else 0
+
+    def outside(self, joints: Joints) -> bool:
+        """Whether the tool, its offset included, is beyond the boundary."""
+        pose, limits = tool_pose(joints, self.settings.offset), self.settings.boundary
+        return any(not low <= v <= high for v, high, low in zip(pose, limits[::2], limits[1::2], strict=False))
+
+    def plan(self, end: Joints, speed: float, acceleration: float, transaction: int) -> None:
+        """Queue a motion that the box plans; in reduced mode no faster than that allows."""
+        most = self.settings.reduced_joint_speed if self.settings.reduced else math.pi
+        self.queue.append((end, max(1e-4, min(speed, most)), max(0.01, min(acceleration, 20.0)), transaction))
+        self.state = MOVING
+
+    def follow(self, target: Joints) -> None:
+        """Take a set-point of the servo mode."""
+        motion = self.motion if isinstance(self.motion, Followed) else Followed(self.joints, self.now)
+        if max(abs(a - b) for a, b in zip(motion.target, target, strict=True)) > _JUMP:
+            self.fail(24)
+            return
+        if fault := self._forbidden(target):
+            self.fail(fault)
+            return
+        motion.target = target
+        self.motion, self.state = motion, MOVING
+
+    def drive(self, speeds: tuple[float, ...], duration: float) -> None:
+        """Take a velocity [rad/s], for so long [s]."""
+        self.motion = Driven(self.joints, speeds, self.now, duration)
+        self.state = MOVING if any(speeds) else READY
+
+    def restarted(self) -> ControlBox:
+        """Return the box as it is after a restart: the arm stands where it stood, what was not saved is forgotten."""
+        found = ControlBox(self.joints, self.serial, self.box_serial, self.firmware, self.axes, self.model)
+        found.claw, found.moved, found.now, found.pressed = self.claw, self.moved, self.now, self.pressed
+        found.settings, found.saved = self.saved, self.saved
+        found.error = self.pressed
+        found.requested, found.unknown = self.requested, self.unknown
+        return found
