@@ -114,7 +114,7 @@ class XArmGripper:
         """Its position [pulses] and status, asked."""
         link.require_heard()
         pulses = self._ask(link, "tell where it is", lambda: link.arm.get_gripper_position(check_baud=False))
-        status = link.ask(self.name, "tell its status", lambda: link.arm.get_gripper_status(check_baud=False))
+        status = link.ask(self.name, "tell its status", link.arm.get_gripper_status)
         return int(pulses), int(status or 0)
 
     def _kept(self, link: Link) -> None:

@@ -127,7 +127,7 @@ def differing(name: str, wanted: XArmSettings, arm: Any) -> list[Diagnostic]:
     ]  # fmt: skip
     for number, ((low, high), (least, most)) in enumerate(zip(wanted.ranges, arm.reduced_joint_limits, strict=True), 1):
         if least < low - 1e-3 or most > high + 1e-3:  # the library narrows them to the arm's generation
-            text = f"{name} did not take the range of joint {number}: it reports {_shown((least, most))} rad"
+            text = f"{name} did not take its range of joint {number}: it reports {_shown((least, most))} rad"
             found.append(error("arm-setting", text, address=name))
     return found
 

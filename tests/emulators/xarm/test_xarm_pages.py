@@ -144,9 +144,7 @@ ANSWERS: list[tuple[str, Callable[[], ControlBox], str, str]] = [
 
 
 @pytest.mark.parametrize(("page", "box", "asked", "said"), ANSWERS, ids=[case[0] for case in ANSWERS])
-def test_the_emulator_answers_as_the_page_says(
-    page: str, box: Callable[[], ControlBox], asked: str, said: str
-) -> None:
+def test_the_emulator_answers_as_the_page_says(page: str, box: Callable[[], ControlBox], asked: str, said: str) -> None:
     frames, rest = split(bytes.fromhex(asked))
     arm = box()
     if page == "p09 register 29":

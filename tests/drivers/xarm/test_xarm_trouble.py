@@ -1,0 +1,172 @@
+"""An xArm7 in trouble: faults, emergency stops, a lost link. Each is told, nothing moves after it, and it recovers."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import io
+import re
+from collections.abc import Callable
+
+import pytest
+from xarm_rig import Rig, rigged
+
+from pico.diagnostics import PicoError
+from pico.drivers.xarm.faults import BOX, GRIPPER, clearable, told
+
+with contextlib.redirect_stdout(io.StringIO()):
+    from xarm.core.config.x_code import ControllerErrorCodeMap, GripperErrorCodeMap
+
+LOST = "no answer|reported nothing|closed the connection|did not answer|failed when it was asked|was lost"
+
+
+@pytest.mark.parametrize("number", [n for n in ControllerErrorCodeMap if isinstance(n, int)])
+def test_every_fault_of_the_vendors_list_is_told_with_what_a_person_must_do(number: int) -> None:
+    found = told("arm1", number, "op3: move lx_100")
+    assert found.summary == f"arm1 stopped during op3: move lx_100 with fault C{number}: {BOX[number].means}"
+    assert found.hint == BOX[number].must and found.address == "arm1"
+    assert ("may be cleared" in found.detail) == clearable(number)
+
+
+def test_nothing_is_cleared_that_a_person_must_look_at_and_an_unknown_fault_is_told_as_such() -> None:
+    assert set(range(1, 39)) - set(BOX) == {4, 5, 6, 7, 8, 9, 20, 29}, "the vendor lists none of these"
+    assert not any(clearable(n) for n in (1, 2, 3, *range(10, 18), 22, 23, 31, 35, 38, 99))
+    assert "does not say what that is" in told("arm1", 99).summary
+    assert {n for n in GripperErrorCodeMap if isinstance(n, int)} <= set(GRIPPER)
+
+
+async def _meets(rig: Rig, trouble: Callable[[], object], seconds: float = 20.0) -> PicoError:
+    """What a motion raises that meets a trouble on its way."""
+    path = rig.turn(1, 1.0, seconds)
+    moving = asyncio.create_task(rig.arm.follow(*path, doing="op3: move lx_100"))
+    while abs(rig.emulator.joints[0] - path[1][0][0]) < 0.02:
+        await asyncio.sleep(0.002)
+    trouble()
+    with pytest.raises(PicoError) as failed:
+        await moving
+    return failed.value
+
+
+def still(rig: Rig) -> None:
+    """Nothing moves for some emulated seconds."""
+    rest, until = rig.emulator.joints, rig.emulator.box.now + 2.0
+    while rig.emulator.box.now < until:
+        rig.do(asyncio.sleep(0.01))
+    assert rig.emulator.joints == rest
+
+
+@pytest.mark.parametrize("number", [1, 12, 19, 24, 31])
+def test_a_fault_on_the_way_is_named_with_its_operation(rig: Rig, number: int) -> None:
+    said = rig.do(_meets(rig, lambda: rig.emulator.fault(number)))
+    assert str(said).startswith(f"arm1 stopped during op3: move lx_100 with fault C{number}: {BOX[number].means}")
+    still(rig)
+    assert rig.do(rig.arm.state()).fault == number
+    with pytest.raises(PicoError, match=f"C{number}"):
+        rig.do(rig.arm.follow(*rig.turn(1, 0.1)))
+
+
+def test_a_fault_in_a_move_of_the_box_is_no_mere_stop(rig: Rig) -> None:
+    """The library calls it stopped (-9): its own look at the fault is up to 0.2 s old."""
+    by_moves = rigged(rig.emulator, rig.loop, follow="moves")
+    rig.do(by_moves.arm.ready())
+    said = rig.do(_meets(by_moves, lambda: rig.emulator.fault(31)))
+    assert "C31" in str(said) and "op3" in str(said)
+    rig.do(by_moves.arm.close())
+
+
+def test_what_may_be_cleared_is_and_what_may_not_asks_a_person(rig: Rig) -> None:
+    rig.emulator.fault(24)
+    assert rig.do(rig.arm.recover()).enabled  # asked: the library still says 24
+    rig.emulator.fault(31)
+    with pytest.raises(PicoError, match="look at the arm first"):
+        rig.do(rig.arm.recover())
+    assert rig.emulator.box.error == 31
+    assert rig.do(rig.arm.recover(by_person=True)).enabled
+
+
+def test_an_emergency_stop_is_not_cleared_while_it_is_pressed(rig: Rig) -> None:
+    rig.emulator.press(1)
+    for _ in range(2):
+        with pytest.raises(PicoError, match="the emergency stop of the control box is pressed"):
+            rig.do(rig.arm.recover(by_person=True))
+    rig.emulator.release()
+    assert rig.do(rig.arm.recover(by_person=True)).enabled
+
+
+def test_what_gets_ready_is_stopped_by_a_stop(rig: Rig) -> None:
+    async def both() -> None:
+        getting = asyncio.create_task(rig.arm.ready())
+        await asyncio.sleep(0.02)
+        await rig.arm.stop()
+        with pytest.raises(PicoError, match="was stopped"):
+            await getting
+
+    rig.do(both())
+    assert rig.emulator.box.state in (4, 5)
+
+
+@pytest.mark.parametrize("how", ["freeze", "kill"])
+def test_a_lost_control_box_is_noticed_and_found_again(rig: Rig, how: str) -> None:
+    said = rig.do(_meets(rig, getattr(rig.emulator, how)))
+    assert re.search(LOST, str(said)) and "op3: move lx_100" in str(said)
+    if how == "freeze":
+        assert rig.link.arm.connected, "that the library says connected means nothing"
+        with pytest.raises(PicoError, match=LOST):
+            rig.do(rig.arm.state())
+        rig.emulator.thaw()
+    else:
+        with pytest.raises(PicoError, match=LOST):
+            rig.do(rig.arm.state())
+        rig.emulator.restart()
+    with pytest.raises(PicoError, match="not ready to move|" + LOST):
+        rig.do(rig.arm.follow(*rig.turn(1, 0.1)))
+    assert rig.do(rig.arm.recover(by_person=True)).enabled
+    assert rig.emulator.box.settings.sensitivity == 3 and rig.emulator.box.settings.fence
+    rig.do(rig.arm.follow(*rig.turn(1, -0.05)))
+
+
+def test_a_restarted_box_has_forgotten_and_does_not_move_before_it_is_told_again(rig: Rig) -> None:
+    said = rig.do(_meets(rig, rig.emulator.restart))
+    assert re.search(LOST, str(said))
+    assert not rig.emulator.box.settings.fence and not rig.emulator.box.enabled
+    with pytest.raises(PicoError, match="not ready to move|" + LOST):
+        rig.do(rig.arm.follow(*rig.turn(1, 0.1)))
+    assert rig.do(rig.arm.recover()).enabled
+    assert rig.emulator.box.settings.fence and rig.emulator.box.settings.load[0] == pytest.approx(0.8)
+
+
+@pytest.mark.parametrize("kind", ["drop", "truncate", "garbage"])
+def test_an_answer_that_is_none_is_never_taken_for_one(rig: Rig, kind: str) -> None:
+    said = rig.do(_meets(rig, lambda: rig.emulator.wire(kind, register=29)))
+    assert re.search(LOST, str(said)) and "op3" in str(said)
+    still(rig)
+    assert rig.do(rig.arm.recover(by_person=True)).enabled
+    rig.do(rig.arm.follow(*rig.turn(1, -0.05)))
+
+
+def test_answers_that_come_late_or_twice_do_no_harm(rig: Rig) -> None:
+    path = rig.turn(1, 0.2)
+    rig.emulator.wire("duplicate", register=29, times=10)
+    rig.emulator.wire("delay", register=29, times=2, seconds=0.05)
+    assert rig.do(rig.arm.follow(*path)).joints[0] == pytest.approx(path[1][-1][0], abs=2e-3)
+    rig.emulator.wire("delay", seconds=2.0, times=3)
+    with pytest.raises(PicoError, match=LOST):
+        rig.do(rig.arm.state())
+    rig.emulator.faults.clear()
+    found = rig.do(rig.arm.recover())
+    assert found.joints == pytest.approx(rig.emulator.joints, abs=1e-5)
+
+
+def test_two_arms_do_not_hear_each_others_reports(rig: Rig) -> None:
+    from pico.emulators.xarm.server import XArmEmulator
+
+    other = XArmEmulator(joints=(1.0, *rig.emulator.joints[1:]), serial="XI130512345678", pace=10.0)
+    other.start()
+    second = rigged(other, rig.loop)
+    assert other.address["host"] != rig.emulator.address["host"]
+    rig.do(second.arm.connect())
+    rig.do(second.arm.ready())
+    assert rig.do(second.arm.state()).joints[0] == pytest.approx(1.0, abs=1e-5)
+    assert rig.do(rig.arm.state()).joints == pytest.approx(rig.emulator.joints, abs=1e-5)
+    rig.do(second.arm.close())
+    other.close()
