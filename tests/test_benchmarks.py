@@ -72,6 +72,7 @@ SMALLEST = {
     "through": "--seeds 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
+    "xarm_transcript": "",
     "undo": "--cycles 2 --held 1",
 }
 ELSEWHERE = {"identical": "tests/planning/test_identical.py"}

@@ -1,0 +1,74 @@
+"""An xArm7 at real pace, and one that is a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import signal
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from xarm_rig import HOME, SERIAL, rigged
+
+from pico.diagnostics import PicoError
+from pico.drivers.xarm.streaming import PERIOD
+from pico.emulators.xarm.server import XArmEmulator
+
+
+@pytest.mark.slow
+def test_ten_seconds_of_set_points_at_250_hz_and_none_is_refused() -> None:
+    """How many come through depends on the machine, since a thread that was late goes on by three periods at most."""
+    emulator = XArmEmulator(joints=HOME, serial=SERIAL)
+    emulator.start()
+    loop = asyncio.new_event_loop()
+    rig = rigged(emulator, loop, pace=1.0)
+    rig.do(rig.arm.connect())
+    rig.do(rig.arm.ready())
+    targets: list[float] = []
+    follow = emulator.box.follow
+    emulator.box.follow = lambda target: (targets.append(target[0]), follow(target))[1]  # type: ignore[func-returns-value]
+    times, joints = rig.turn(1, 1.5, seconds=10.0)
+    rig.do(rig.arm.follow(times, joints))
+    assert rig.arm._stream is not None and len(targets) == rig.arm._stream.sent == emulator.box.requested[29]
+    assert 10.0 / PERIOD / 3 <= len(targets) <= 10.0 / PERIOD + 5
+    fastest = float(np.max(np.diff(joints[:, 0]) / np.diff(times)))
+    assert max(np.diff(targets)) <= 3 * PERIOD * fastest * 1.01
+    assert emulator.box.error == 0 and emulator.box.unknown == []
+    rig.do(rig.arm.close())
+    emulator.close()
+    loop.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("how", [signal.SIGSTOP, signal.SIGKILL])
+def test_a_process_that_is_frozen_or_killed_is_noticed(how: signal.Signals) -> None:
+    run = [sys.executable, "-m", "pico.emulators.xarm", "--serial", SERIAL, "--pace", "10"]
+    with subprocess.Popen(run, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None and process.stdin is not None
+        address = json.loads(process.stdout.readline())
+        loop = asyncio.new_event_loop()
+        emulator = XArmEmulator(joints=HOME)  # stands in for where the drivers of the rig look only
+        emulator._host, emulator._port = address["host"], address["port"]
+        rig = rigged(emulator, loop)
+        rig.do(rig.arm.connect())
+        at = np.array(rig.do(rig.arm.ready()).joints)
+        process.stdin.write("fault 24\n")
+        process.stdin.flush()
+        while not rig.do(rig.arm.state()).fault:
+            pass
+        rig.do(rig.arm.recover())
+        path = np.linspace(0.0, 30.0, 50), at + np.linspace(0.0, 1.0, 50)[:, None] * np.eye(7)[0]
+
+        async def lost() -> None:
+            moving = asyncio.create_task(rig.arm.follow(*path, doing="op1"))
+            await asyncio.sleep(0.1)
+            process.send_signal(how)
+            with pytest.raises(PicoError, match="arm1 was lost during op1"):
+                await moving
+
+        rig.do(lost())
+        rig.do(rig.arm.close())
+        process.kill()
+        loop.close()
