@@ -72,12 +72,13 @@ SMALLEST = {
     "through": "--seeds 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
+    "xarm_link": "--seconds 1 --losses 1",
     "xarm_transcript": "",
     "undo": "--cycles 2 --held 1",
 }
 ELSEWHERE = {"identical": "tests/planning/test_identical.py"}
 """Those that have a slow test of their own."""
-FIGURED = {"carrying", "mutants", "scale", "startup"}
+FIGURED = {"carrying", "mutants", "scale", "startup", "xarm_link"}
 """Those that end with 1 by a figure, which so small a size or another machine's load decides."""
 
 

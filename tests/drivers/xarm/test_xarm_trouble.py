@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import io
 import re
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -105,7 +106,7 @@ def test_what_gets_ready_is_stopped_by_a_stop(rig: Rig) -> None:
     assert rig.emulator.box.state in (4, 5)
 
 
-@pytest.mark.parametrize("how", ["freeze", "kill"])
+@pytest.mark.parametrize("how", [pytest.param("freeze", marks=pytest.mark.slow), "kill"])
 def test_a_lost_control_box_is_noticed_and_found_again(rig: Rig, how: str) -> None:
     said = rig.do(_meets(rig, getattr(rig.emulator, how)))
     assert re.search(LOST, str(said)) and "op3: move lx_100" in str(said)
@@ -135,7 +136,7 @@ def test_a_restarted_box_has_forgotten_and_does_not_move_before_it_is_told_again
     assert rig.emulator.box.settings.fence and rig.emulator.box.settings.load[0] == pytest.approx(0.8)
 
 
-@pytest.mark.parametrize("kind", ["drop", "truncate", "garbage"])
+@pytest.mark.parametrize("kind", ["drop", *(pytest.param(k, marks=pytest.mark.slow) for k in ("truncate", "garbage"))])
 def test_an_answer_that_is_none_is_never_taken_for_one(rig: Rig, kind: str) -> None:
     said = rig.do(_meets(rig, lambda: rig.emulator.wire(kind, register=29)))
     assert re.search(LOST, str(said)) and "op3" in str(said)
@@ -155,6 +156,42 @@ def test_answers_that_come_late_or_twice_do_no_harm(rig: Rig) -> None:
     rig.emulator.faults.clear()
     found = rig.do(rig.arm.recover())
     assert found.joints == pytest.approx(rig.emulator.joints, abs=1e-5)
+
+
+def test_the_gripper_is_stopped_where_it_is(rig: Rig) -> None:
+    rig.do(rig.gripper.connect())
+    claw = rig.emulator.box.claw
+    claw.fingers = None
+    rig.do(rig.gripper.move_to(80.0))
+
+    async def stopped() -> None:
+        shutting = asyncio.create_task(rig.gripper.move_to(0.0))
+        while claw.width > 79.0:
+            await asyncio.sleep(0.001)
+        await rig.gripper.stop()
+        with pytest.raises(PicoError, match="hand was stopped"):
+            await shutting
+
+    claw.speed, real = 1.0, claw.advance
+    claw.advance = lambda now: real(claw.now + (now - claw.now) / 10.0)  # type: ignore[method-assign]
+    rig.do(stopped())
+    width = rig.do(rig.gripper.grip()).width
+    assert 1.0 < width < 79.5
+    del claw.advance
+    still(rig)
+    assert claw.width == pytest.approx(width, abs=5.0)
+
+
+def test_what_the_library_started_ends_with_the_link(rig: Rig) -> None:
+    before = set(threading.enumerate())
+    fresh = rigged(rig.emulator, rig.loop)
+    rig.do(fresh.arm.connect())
+    started = set(threading.enumerate()) - before
+    assert len(started) > 3
+    rig.do(fresh.arm.close())
+    for thread in started:
+        thread.join(5.0)
+    assert not [thread for thread in started if thread.is_alive()]
 
 
 def test_two_arms_do_not_hear_each_others_reports(rig: Rig) -> None:
