@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from pico.emulators.xarm.claw import Claw
-from pico.emulators.xarm.kinematics import tool_pose
+from pico.emulators.xarm.kinematics import tool_point
 from pico.emulators.xarm.motions import Driven, Followed, Motion, Planned
 from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS
@@ -158,8 +158,8 @@ class ControlBox:
 
     def outside(self, joints: Joints) -> bool:
         """Whether the tool, its offset included, is beyond the boundary."""
-        pose, limits = tool_pose(joints, self.settings.offset), self.settings.boundary
-        return any(not low <= v <= high for v, high, low in zip(pose, limits[::2], limits[1::2], strict=False))
+        point, limits = tool_point(joints, self.settings.offset), self.settings.boundary
+        return any(not low <= v <= high for v, high, low in zip(point, limits[::2], limits[1::2], strict=True))
 
     def plan(self, end: Joints, speed: float, acceleration: float, transaction: int) -> None:
         """Queue a motion that the box plans; in reduced mode no faster than that allows."""

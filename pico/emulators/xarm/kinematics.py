@@ -18,6 +18,13 @@ def tool_pose(joints: Sequence[float], offset: Sequence[float] = (0.0,) * 6) -> 
     return (*(np.array(position) + flange @ np.array(offset[:3])).tolist(), *angles(turned))
 
 
+def tool_point(joints: Sequence[float], offset: Sequence[float]) -> tuple[float, ...]:
+    """Return where the tool's point alone is [mm]; asked at every step of a motion."""
+    position, rows = fk(tuple(joints), 0.0)
+    x, y, z = offset[:3]
+    return tuple(at - row[0] * x - row[1] * y + row[2] * z for at, row in zip(position, rows, strict=True))
+
+
 def rotation(roll: float, pitch: float, yaw: float) -> np.ndarray:
     """Return Rz(yaw) Ry(pitch) Rx(roll), (3, 3)."""
     (a, b), (c, d), (e, f) = ((math.cos(v), math.sin(v)) for v in (roll, pitch, yaw))
