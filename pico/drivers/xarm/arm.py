@@ -66,7 +66,7 @@ class XArm:
         path = checked(self.name, times, joints, self.settings)
         stream = await self._line.move("begin to move", lambda link: self._begun(link, path, doing))
         try:
-            how = await asyncio.wrap_future(stream.done)
+            how = await asyncio.shield(asyncio.wrap_future(stream.done))
         except ConnectionError as exc:
             self._ready_link = None
             with suppress(PicoError):
@@ -94,7 +94,8 @@ class XArm:
         if stream:
             stream.end("stopped")
         if link is not None:
-            await asyncio.to_thread(self._still, link)
+            with suppress(ConnectionError, PicoError):  # asked again in its turn, over a new link where need be
+                await asyncio.to_thread(self._still, link)
         await self._line.stop(self._still)
 
     async def recover(self, *, by_person: bool = False) -> ArmState:
@@ -105,8 +106,7 @@ class XArm:
 
     async def close(self) -> None:
         """Let go of the link."""
-        if self._stream:
-            self._stream.end("stopped")
+        await self.halt()
         await self._line.close()
 
     def _identified(self, link: Link) -> Identity:

@@ -8,13 +8,14 @@ may look for its control box for minutes. Reports it takes only from the vendor'
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import io
 import logging
 import socket
 import sys
 import threading
+from collections.abc import Sequence
 from functools import cache
+from importlib.machinery import ModuleSpec, PathFinder
+from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from pico.diagnostics import PicoError, error
@@ -25,7 +26,7 @@ ANSWER = 0.7
 OPENING = 1.5
 """How long it may take until a control box has said what it is, and reported once [s]."""
 
-_LOCK = threading.Lock()
+_LOCK, _IMPORTING = threading.Lock(), threading.Lock()
 
 
 class _Sockets:
@@ -36,22 +37,43 @@ class _Sockets:
         return _ignored if name == "setdefaulttimeout" else getattr(socket, name)
 
 
-@cache
 def library() -> Any:
     """Return the vendor's class of an arm; raises ImportError where the extra `xarm` is not installed."""
-    with contextlib.redirect_stdout(io.StringIO()):
+    with _IMPORTING:
+        return _library()
+
+
+@cache
+def _library() -> Any:
+    quietly = SimpleNamespace(find_spec=_quiet)
+    sys.meta_path.insert(0, quietly)
+    try:
         from xarm.core.comm import socket_port
         from xarm.core.utils import log
         from xarm.wrapper import XArmAPI
-    for quiet in (log.logger, log.origin_logger, log.Logger.logger):
-        quiet.handlers.clear()
-        quiet.addHandler(logging.NullHandler())
-        quiet.propagate = False
-    for name, module in list(sys.modules.items()):
-        if name.startswith("xarm."):
-            module.__dict__["print"] = _ignored
+    finally:
+        sys.meta_path.remove(quietly)
+    for logger in (log.logger, log.origin_logger, log.Logger.logger):
+        logger.handlers.clear()
+        logger.addHandler(logging.NullHandler())
+        logger.propagate = False
     socket_port.__dict__["socket"] = _Sockets()
     return XArmAPI
+
+
+def _quiet(name: str, path: Sequence[str] | None, target: object = None) -> ModuleSpec | None:
+    """Find a module of the library, and let it begin with a `print` of its own, that does nothing."""
+    spec = PathFinder.find_spec(name, path) if name.startswith("xarm.") else None
+    if spec is None or spec.loader is None:
+        return None
+    run = spec.loader.exec_module
+
+    def unheard(module: ModuleType) -> None:
+        module.__dict__["print"] = _ignored
+        run(module)
+
+    spec.loader.exec_module = unheard  # type: ignore[method-assign]
+    return spec
 
 
 async def imported(name: str) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import builtins
 import socket
+import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -97,6 +99,25 @@ def test_the_library_prints_nothing_and_leaves_the_processs_sockets_alone(
     rig.do(rig.arm.ready())
 
 
+def test_importing_it_prints_nothing_and_takes_no_others_output() -> None:
+    """In a process of its own; while two threads import it, a third one's words come through."""
+    code = """
+import sys, threading
+from pico.drivers.xarm.library import library
+going = [threading.Thread(target=library) for _ in range(2)]
+[thread.start() for thread in going]
+words = 0
+while any(thread.is_alive() for thread in going):
+    print("heard")
+    words += 1
+    going[0].join(0.01)
+print("heard")
+print(words + 1, file=sys.stderr)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["heard"] * int(done.stderr)
+
+
 def test_without_the_vendors_library_its_extra_is_named(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
     real = builtins.__import__
 
@@ -105,7 +126,7 @@ def test_without_the_vendors_library_its_extra_is_named(rig: Rig, monkeypatch: p
             raise ImportError("No module named 'xarm'")
         return real(name, *rest, **more)
 
-    library.library.cache_clear()
+    library._library.cache_clear()
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(PicoError, match=r"arm1 needs the vendor's library.*pico-lab\[xarm\]"):
         rig.do(rigged(rig.emulator, rig.loop).arm.connect())

@@ -108,6 +108,25 @@ def test_it_comes_to_rest_on_its_path_and_nothing_moves_after(rig: Rig, how: str
     assert rig.do(rig.arm.follow(*back)).joints[0] == pytest.approx(back[1][-1][0], abs=2e-3)
 
 
+def test_who_no_longer_waits_for_a_motion_has_it_come_to_rest(rig: Rig) -> None:
+    path = rig.turn(1, -1.2, seconds=20.0)
+
+    async def given_up() -> None:
+        moving = asyncio.create_task(rig.arm.follow(*path))
+        while abs(rig.emulator.joints[0] - path[1][0][0]) < 0.05:
+            await asyncio.sleep(0.002)
+        moving.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await moving
+        await rig.arm.halt()
+
+    rig.do(given_up())
+    rest, until = rig.emulator.joints, rig.emulator.box.now + 2.0
+    while rig.emulator.box.now < until:
+        rig.do(asyncio.sleep(0.01))
+    assert rig.emulator.joints == rest and rest[0] > path[1][-1][0] + 0.1
+
+
 def test_a_stop_needs_no_motion_to_stop(rig: Rig) -> None:
     rig.do(rig.arm.stop())
     assert rig.emulator.box.state == 4 and not rig.do(rig.arm.state()).enabled
