@@ -85,7 +85,7 @@ class Rotator:
         stops = self._line.stops
 
         def begin(bus: ElliptecBus) -> None:
-            bus.flush_buffers()
+            _fresh(bus)
             bus.write(command(), address=self._at)
 
         await self._line.move(what, begin)
@@ -101,12 +101,7 @@ class Rotator:
 
     def _at_rest(self, bus: ElliptecBus) -> float | None:
         """Return where it is at rest [deg]; None while it moves. Raises PicoError for what it says went wrong."""
-        from ElliptecBus.elliptec_bus import ElliptecTimeoutError
-
-        try:
-            packet = bus.read_packet(timeout=0.05)
-        except ElliptecTimeoutError:
-            packet = self._asked(bus, "gs", "GS")
+        packet = _heard(bus, 0.05) or self._asked(bus, "gs", "GS")
         if packet.address != self._at:
             return None
         if packet.command == "PO":
@@ -115,18 +110,19 @@ class Rotator:
 
     def _asked(self, bus: ElliptecBus, command: str, *expected: str) -> Packet:
         """Return the reply to a command; what came before it, and what others on the line say, is passed over."""
-        from ElliptecBus.elliptec_bus import ElliptecProtocolError
+        from ElliptecBus.elliptec_bus import ElliptecTimeoutError
 
-        bus.flush_buffers()
+        _fresh(bus)
         bus.write(command, address=self._at)
-        for _ in range(16):
-            packet = bus.read_packet()
-            if packet.address == self._at:
+        ends = time.monotonic() + _REPLY
+        while (left := ends - time.monotonic()) > 0:
+            packet = _heard(bus, left)
+            if packet is not None and packet.address == self._at:
                 if packet.command == "GS":
                     self._status(packet)
                 if packet.command in expected:
                     return packet
-        raise ElliptecProtocolError(f"no {' or '.join(expected)} to {command}, but {packet.raw!r}")
+        raise ElliptecTimeoutError(f"no {' or '.join(expected)} to {command}")
 
     def _status(self, packet: Packet) -> int:
         from ElliptecBus.elliptec_bus import STATUS_MESSAGES
@@ -151,6 +147,24 @@ class Rotator:
         return Identity(
             vendor="Thorlabs", model=found.model_name, serial=found.serial_number, firmware=found.firmware_release
         )
+
+
+def _fresh(bus: ElliptecBus) -> None:
+    """Forget what was heard. The library's own way also takes back what was said to another mount and is on its way."""
+    link = bus._serial
+    if link is None:
+        raise ConnectionError("the line is closed")
+    link.reset_input_buffer()
+
+
+def _heard(bus: ElliptecBus, within: float) -> Packet | None:
+    """Return the next reply; None where none came, or a piece of one."""
+    from ElliptecBus.elliptec_bus import ElliptecProtocolError, ElliptecTimeoutError
+
+    try:
+        return bus.read_packet(timeout=within)
+    except (ElliptecTimeoutError, ElliptecProtocolError):
+        return None
 
 
 def _hex(pulses: float) -> str:

@@ -85,8 +85,9 @@ class Arm(Instrument, Protocol):
         """Return how it last reported itself; raises PicoError where the link is lost."""
         ...
 
-    async def follow(self, times: np.ndarray, joints: np.ndarray) -> ArmState:
-        """Follow `joints` (n, k) [rad] at `times` (n,) [s] from where it stands, and return once it is at rest there.
+    async def follow(self, times: np.ndarray, joints: np.ndarray, *, doing: str = "") -> ArmState:
+        """Follow `joints` (n, k) [rad] at `times` (n,) [s] from where it stands, and return once it is at rest there;
+        `doing`: the operation, for what is raised.
 
         Raises PicoError where it does not stand at the first of them, was stopped, or came to a fault on the way.
         """

@@ -30,7 +30,8 @@ class Mount:
     def __init__(self, serial: str, behind: Behind) -> None:
         self.serial, self.behind = serial, behind
         self._motion: Motion | None = None
-        self._status, self._jog, self._offset = 0, PULSES // 8, 0
+        self._status, self._offset = 0, 0
+        self._jog = int(behind.read("jog") or PULSES // 8)
 
     def answer(self, command: str) -> str:
         """Return the reply to one command, without address; '' where it comes once the motion has ended."""
@@ -73,6 +74,7 @@ class Mount:
         if name in ("sj", "so"):
             if name == "sj":
                 self._jog = _signed(hexadecimal)
+                self.behind.write("jog", self._jog)
             else:
                 self._offset = _signed(hexadecimal)
             return "GS00"

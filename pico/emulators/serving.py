@@ -1,10 +1,13 @@
-"""What an emulator says over a wire: a serial line that is a pseudo-terminal. One thread each."""
+"""What an emulator says over a wire: a TCP port of 127.0.0.1, or a serial line (a pseudo-terminal). One thread each."""
 
 from __future__ import annotations
 
 import os
 import selectors
+import socket
 import threading
+from collections.abc import Callable
+from contextlib import suppress
 from typing import Protocol
 
 PAUSE = 0.005
@@ -35,6 +38,52 @@ class _Served:
         """End it; whoever is connected is cut off."""
         self._closing.set()
         self._thread.join(2)
+
+
+class TcpServed(_Served):
+    """Conversations on a port of 127.0.0.1, a new one for each who connects."""
+
+    def __init__(self, conversation: Callable[[], Conversation]) -> None:
+        super().__init__()
+        self._conversation = conversation
+        self._listening = socket.create_server(("127.0.0.1", 0))
+        self._listening.setblocking(False)
+        self.address: dict[str, str | int] = {"host": "127.0.0.1", "port": self._listening.getsockname()[1]}
+        self._thread.start()
+
+    def _serve(self) -> None:
+        with selectors.DefaultSelector() as waiting, self._listening:
+            waiting.register(self._listening, selectors.EVENT_READ)
+            open_: dict[socket.socket, Conversation] = {}
+            while not self._closing.is_set():
+                for key, _ in waiting.select(PAUSE):
+                    if key.fileobj is self._listening:
+                        with suppress(OSError):
+                            link, _ = self._listening.accept()
+                            link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+                            waiting.register(link, selectors.EVENT_READ)
+                            open_[link] = self._conversation()
+                    elif isinstance(key.fileobj, socket.socket):
+                        _answer(key.fileobj, open_, waiting)
+                for link, conversation in list(open_.items()):
+                    if said := conversation.due():
+                        with suppress(OSError):
+                            link.sendall(said)
+            for link in open_:
+                link.close()
+
+
+def _answer(link: socket.socket, open_: dict[socket.socket, Conversation], waiting: selectors.BaseSelector) -> None:
+    try:
+        data = link.recv(65536)
+        if data:
+            link.sendall(open_[link].heard(data))
+    except OSError:
+        data = b""
+    if not data:
+        waiting.unregister(link)
+        del open_[link]
+        link.close()
 
 
 class SerialServed(_Served):

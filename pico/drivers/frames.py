@@ -1,0 +1,102 @@
+"""Cameras behind a plain server of frames over TCP: whatever grabs pictures where PICO has no driver for it, and what
+an emulated bench has.
+
+A request is a line of JSON, `{"do": "identify"}` or `{"do": "grab", "exposure": 2.5, "gain": 0}` (ms, dB; each may be
+missing); the answer is a line of JSON, of a frame with its `shape` and `dtype` and then its bytes, row by row.
+"""
+
+from __future__ import annotations
+
+import json
+import socket
+from typing import TYPE_CHECKING, Any
+
+from pico.drivers.bus import Bus
+from pico.drivers.driver import Driver
+from pico.drivers.line import Line
+from pico.drivers.protocols import Identity
+from pico.model.wiring import DeviceEntry
+
+if TYPE_CHECKING:
+    import numpy as np
+
+_GRAB = 4.5
+"""How long a picture may take [s]."""
+_LARGEST = 1 << 28
+_TYPES = ("uint8", "uint16")
+
+
+class FrameLink:
+    """A connection to a server of frames. Raises OSError, or ValueError for what is no answer."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._socket = socket.create_connection((host, port), timeout=_GRAB)
+        self._file = self._socket.makefile("rb")
+
+    def ask(self, **request: Any) -> tuple[dict[str, Any], bytes]:
+        """Return the answer to a request, and the bytes that come with it."""
+        self._socket.sendall(json.dumps(request).encode() + b"\n")
+        said = json.loads(self._file.readline(65536) or "null")
+        if not isinstance(said, dict) or "error" in said:
+            raise ValueError(said["error"] if isinstance(said, dict) else "it hung up")
+        size = int(said.get("bytes", 0))
+        if not 0 <= size <= _LARGEST:
+            raise ValueError(f"a frame of {size} bytes")
+        data = self._file.read(size)
+        if len(data) != size:
+            raise ValueError("it hung up in the middle of a frame")
+        return said, data
+
+    def close(self) -> None:
+        """Hang up, also while somebody waits for an answer."""
+        self._socket.close()
+
+
+class FrameCamera:
+    """A camera of a server of frames."""
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[FrameLink]) -> None:
+        self.name = name
+        self._line = Line(name, bus, entry.identity, _identity)
+
+    async def connect(self) -> Identity:
+        return await self._line.connect()
+
+    async def grab(self, *, exposure: float | None = None, gain: float | None = None) -> np.ndarray:
+        """Return one picture, (rows, columns) or (rows, columns, 3), uint8 or uint16."""
+        asked = {key: value for key, value in (("exposure", exposure), ("gain", gain)) if value is not None}
+        said, data = await self._line.ask("take a picture", lambda link: link.ask(do="grab", **asked), within=_GRAB)
+        return _picture(said, data)
+
+    async def stop(self) -> None:
+        """A camera does not move."""
+
+    async def close(self) -> None:
+        await self._line.close()
+
+
+def _picture(said: dict[str, Any], data: bytes) -> np.ndarray:
+    import numpy as np
+
+    if said.get("dtype") not in _TYPES:
+        raise ValueError(f"pixels of type {said.get('dtype')!r}")
+    return np.frombuffer(data, said["dtype"]).reshape(said["shape"])
+
+
+def _identity(link: FrameLink) -> Identity:
+    said, _ = link.ask(do="identify")
+    return Identity(**{key: str(said.get(key, "")) for key in ("vendor", "model", "serial", "firmware")})
+
+
+CAMERA = Driver(
+    kind="camera",
+    made=FrameCamera,
+    opened=lambda entry: FrameLink(str(entry.address["host"]), int(entry.address["port"])),
+    closed=lambda link: link.close(),
+    address={"host": "the server's name or number", "port": "its TCP port"},
+    bus=("host", "port"),
+    properties={"frame": "count", "exposure": "ms", "gain": "dB"},
+    maturity="emulated",
+    emulator="frames",
+)
+"""`frames.camera`."""

@@ -1,0 +1,133 @@
+"""What is on or off behind a box that takes lines of text over TCP, such as a microcontroller of a lab's own: shutters
+with a sensor, lasers that report themselves, lamps, safety inputs.
+
+`read NAME` is answered by `1`, `0`, or `?` where that is not known; `set NAME 1` or `set NAME 0` by what is read then.
+A shutter `NAME` is driven as such, and read from its sensor, `NAME.sensor`; a safety input is safe where it reads `1`.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import socket
+import time
+from typing import Any
+
+from pico.drivers.bus import Bus
+from pico.drivers.driver import Driver, Kind
+from pico.drivers.line import Line
+from pico.drivers.protocols import Identity, SafetyState
+from pico.model.wiring import DeviceEntry
+
+_REPLY = 1.0
+"""How long the box may take for an answer [s]."""
+_TRAVEL = 1.0
+"""How long a shutter may take until its sensor says that it is there [s]."""
+_STATES = {"1": True, "0": False, "?": None}
+
+
+class SwitchLink:
+    """A connection to a box of switches. Raises OSError, or ValueError for what is no answer."""
+
+    def __init__(self, host: str, port: int) -> None:
+        self._socket = socket.create_connection((host, port), timeout=_REPLY)
+        self._file = self._socket.makefile("rb")
+
+    def ask(self, words: str) -> str:
+        """Return the answer to a line."""
+        self._socket.sendall(words.encode() + b"\n")
+        said = self._file.readline(256)
+        if not said.endswith(b"\n"):
+            raise ValueError("it hung up")
+        return said.decode("utf-8", "replace").strip()
+
+    def state(self, words: str) -> bool | None:
+        """Return the state that a line is answered by; None where the box does not know."""
+        said = self.ask(words)
+        if said not in _STATES:
+            raise ValueError(f"it answers {said[:40]!r} to `{words}`")
+        return _STATES[said]
+
+    def close(self) -> None:
+        """Hang up, also while somebody waits for an answer."""
+        self._socket.close()
+
+
+class _Switch:
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[SwitchLink]) -> None:
+        self.name, self._at = name, str(entry.address["name"])
+        self._line = Line(name, bus, entry.identity, _identity)
+
+    async def connect(self) -> Identity:
+        return await self._line.connect()
+
+    async def stop(self) -> None:
+        """A switch does not move by itself."""
+
+    async def close(self) -> None:
+        await self._line.close()
+
+    async def _read(self, what: str, name: str) -> bool | None:
+        return await self._line.ask(what, lambda link: link.state(f"read {name}"))
+
+    async def _set(self, what: str, on: bool) -> bool | None:
+        return await self._line.move(what, lambda link: link.state(f"set {self._at} {int(on)}"))
+
+
+class SwitchedShutter(_Switch):
+    """A shutter with a sensor of its own."""
+
+    async def open(self, wanted: bool) -> bool:
+        """Open or close it, and return what its sensor says once it is there, or has had its time."""
+        await self._set("open" if wanted else "close", wanted)
+        ends = time.monotonic() + _TRAVEL
+        while (found := await self.is_open()) is not wanted and time.monotonic() < ends:
+            await asyncio.sleep(0.02)
+        return bool(found) if found is not None else not wanted
+
+    async def is_open(self) -> bool | None:
+        return await self._read("tell its position", f"{self._at}.sensor")
+
+
+class SwitchedLaser(_Switch):
+    """A laser that reports whether it emits."""
+
+    async def emit(self, on: bool) -> bool:
+        return bool(await self._set("emit" if on else "go out", on))
+
+    async def emitting(self) -> bool | None:
+        return await self._read("tell whether it emits", self._at)
+
+
+class SwitchedLamp(_Switch):
+    """A lamp."""
+
+    async def shine(self, on: bool) -> bool:
+        return bool(await self._set("shine" if on else "go out", on))
+
+
+class SwitchedInput(_Switch):
+    """A safety input."""
+
+    async def read(self) -> SafetyState:
+        return SafetyState(safe=await self._read("tell whether it is safe", self._at), age=0.0)
+
+
+def _identity(link: SwitchLink) -> Identity:
+    words = dict(word.partition("=")[::2] for word in link.ask("identify").split())
+    return Identity(**{key: words.get(key, "") for key in ("vendor", "model", "serial", "firmware")})
+
+
+def _driver(kind: Kind, made: Any, prop: str) -> Driver:
+    return Driver(
+        kind=kind, made=made,
+        opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),
+        closed=lambda link: link.close(),
+        address={"host": "the box's name or number", "port": "its TCP port", "name": "what it calls this one"},
+        bus=("host", "port"), properties={prop: ""}, maturity="emulated", emulator="switches", link="switches",
+    )  # fmt: skip
+
+
+SHUTTER = _driver("shutter", SwitchedShutter, "open")
+LASER = _driver("laser", SwitchedLaser, "emission")
+LAMP = _driver("lamp", SwitchedLamp, "on")
+INPUT = _driver("safety input", SwitchedInput, "safe")
