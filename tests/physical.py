@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.backends.sim.checks import standing
+from pico.backends.checks import standing
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import World, new_world
 from pico.manifest.load import load_folder

@@ -94,6 +94,10 @@ class Device(Protocol):
         """Let go of what `take` took, once everything under way has ended."""
         ...
 
+    async def close(self) -> None:
+        """Let go of what leads to the bench; it opens again when it is needed."""
+        ...
+
     def watch(self, look: Callable[[Snapshot], None] | None) -> None:
         """Let `look` see what moves from the next `take` on, often enough for a film; None: no more.
 

@@ -18,6 +18,8 @@ Opener = Callable[["Setup", Path, str, Callable[[], str]], "Device"]
 GROUP = "pico.devices"
 SIMULATOR = "sim"
 """The device of who asks for none, and of trials."""
+HARDWARE, EMULATED = "hardware", "emulated"
+"""The real bench, and its drivers with emulators at the other end."""
 
 
 def shipped() -> list[str]:

@@ -1,7 +1,8 @@
 """Where the parts of a bench were last: what the cameras saw of them, where an arm put them down since, and which ones
 hands took.
 
-Kept as `.pico/seen.json` and `.pico/hands.json` beside the lab, so that a part that something hides is not lost. It is
+Kept as `.pico/seen.json` and `.pico/hands.json` beside the lab, so that a part that something hides is not lost, and
+of a bench that is not simulated in a folder of its own there (`bench`). It is
 no truth: whoever looks asks the cameras first, and the pads say whether a hand holds anything.
 """
 
@@ -17,6 +18,7 @@ from pico.attachment import bench_folder
 from pico.diagnostics import PicoError
 from pico.disk import write_whole
 from pico.model.observation import Observation, Uncertainty
+from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import Format, as_json, record
 from pico.model.setup import Setup
@@ -51,10 +53,10 @@ class Taken:
     pose: Pose
 
 
-def recall_hands(root: Path) -> dict[str, Taken]:
+def recall_hands(root: Path, bench: str = "") -> dict[str, Taken]:
     """Return what hands took last, by robot; nothing where that is not known."""
     try:
-        data = HANDS.lifted(json.loads(_hands_path(root).read_text(encoding="utf-8")))
+        data = HANDS.lifted(json.loads(_hands_path(root, bench).read_text(encoding="utf-8")))
         return {
             robot: Taken(component=str(taken["component"]), pose=Pose(**taken["pose"]))
             for robot, taken in data["hands"].items()
@@ -63,9 +65,9 @@ def recall_hands(root: Path) -> dict[str, Taken]:
         return {}
 
 
-def remember_hands(root: Path, hands: Mapping[str, Taken]) -> None:
+def remember_hands(root: Path, hands: Mapping[str, Taken], bench: str = "") -> None:
     """Keep what hands take, before they do; where that can't be written, the journal still knows the component."""
-    _write(_hands_path(root), {"schema": HANDS.schema, "hands": as_json(hands)})
+    _write(_hands_path(root, bench), {"schema": HANDS.schema, "hands": as_json(hands)})
 
 
 def repeated(setup: Setup, component: str) -> Uncertainty:
@@ -74,19 +76,28 @@ def repeated(setup: Setup, component: str) -> Uncertainty:
     return Uncertainty(position=repeatability.position, yaw=repeatability.yaw)
 
 
-def _hands_path(root: Path) -> Path:
-    return bench_folder(root) / "hands.json"
+def placed_at(setup: Setup, operation: Operation, result: OperationResult) -> LastSeen:
+    """Return where a part is that an arm put down: where it was seen then, else where it was to be put."""
+    after, name, time = result.after, operation.component, result.ended
+    if after and after.pose and after.how in ("stereo", "known height", "in hand"):
+        return LastSeen(pose=after.pose, uncertainty=after.uncertainty, time=time)
+    pose = Pose(**operation.arguments["to"]["pose"])
+    return LastSeen(pose=pose, uncertainty=repeated(setup, name), time=time, placed=True)
 
 
-def memory_path(root: Path) -> Path:
+def _hands_path(root: Path, bench: str) -> Path:
+    return bench_folder(root) / bench / "hands.json"
+
+
+def memory_path(root: Path, bench: str = "") -> Path:
     """Return where the memory of the lab in folder `root` is kept."""
-    return bench_folder(root) / "seen.json"
+    return bench_folder(root) / bench / "seen.json"
 
 
-def recall(root: Path) -> dict[str, LastSeen]:
+def recall(root: Path, bench: str = "") -> dict[str, LastSeen]:
     """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
     try:
-        data = FORMAT.lifted(json.loads(memory_path(root).read_text(encoding="utf-8")))
+        data = FORMAT.lifted(json.loads(memory_path(root, bench).read_text(encoding="utf-8")))
         return {
             name: LastSeen(
                 pose=Pose(**part["pose"]),
@@ -115,9 +126,9 @@ def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen
     return {**last, **fresh}
 
 
-def remember(root: Path, parts: Mapping[str, LastSeen]) -> None:
+def remember(root: Path, parts: Mapping[str, LastSeen], bench: str = "") -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    _write(memory_path(root), {"schema": FORMAT.schema, "parts": as_json(parts)})
+    _write(memory_path(root, bench), {"schema": FORMAT.schema, "parts": as_json(parts)})
 
 
 def _write(path: Path, document: Mapping[str, Any]) -> None:

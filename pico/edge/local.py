@@ -705,6 +705,7 @@ class LocalEdge:
         await self._ended()
         if self._lease is not None:
             await self._leave()
+        await self.device.close()
         self._remembers.close()
 
 

@@ -12,8 +12,9 @@ from benches import execute, plan_to, run, shel, sim
 from oracles.unfinished import unfinished
 from results import RunResult
 
+from pico.backends.halting import sooner, way_out
+from pico.backends.sim.fault_effects import strikes
 from pico.backends.sim.faults import Fault
-from pico.backends.sim.halting import sooner, strikes, way_out
 from pico.backends.sim.store import load_world
 from pico.model.observation import slot_at
 from pico.model.pose import Pose

@@ -161,7 +161,7 @@ def test_darkness_is_not_assured_beside_a_laser_that_has_no_shutter(tmp_path: Pa
 
 
 VOLTAGE = """
-from pico.backends.sim.readings import Reading
+from pico.backends.measured import Reading
 
 def measures(setup, component, measurable):
     return measurable == "voltage" and component == "cam"

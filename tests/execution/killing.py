@@ -120,6 +120,8 @@ class InstantDevice:
     def watch(self, look: object) -> None:
         """Nobody films it."""
 
+    async def close(self) -> None: ...
+
     def kept(self) -> bool:
         return True
 

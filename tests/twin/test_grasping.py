@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from physical import bench, carry, finish, fresh, moved_by_hand, path_to, to
 
-from pico.backends.sim.mover import MoveFailed
+from pico.backends.attempt import Failed
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import FreePose, new_world
 from pico.model.pose import Pose, angle_between
@@ -42,7 +42,7 @@ def test_nothing_else_moves(setup: Setup) -> None:
 
 def test_without_friction_the_part_is_dropped_and_named(setup: Setup) -> None:
     world, physics = fresh(setup, friction=0.0)
-    with pytest.raises(MoveFailed, match="arm1 dropped lx_125") as caught:
+    with pytest.raises(Failed, match="arm1 dropped lx_125") as caught:
         finish(physics, physics.move(to("lx_125", GOAL), path_to(setup, world, "lx_125", GOAL)))
     assert caught.value.diagnostic.code == "dropped"
     assert caught.value.diagnostic.address == "lx_125"
@@ -54,7 +54,7 @@ def test_the_friction_of_the_pads_is_the_labs(setup: Setup) -> None:
 
     slippery = replace(setup, lab=replace(setup.lab, sim=replace(setup.lab.sim, pad_friction=0.0)))
     world, physics = fresh(slippery)
-    with pytest.raises(MoveFailed, match="dropped lx_125"):
+    with pytest.raises(Failed, match="dropped lx_125"):
         finish(physics, physics.move(to("lx_125", GOAL), path_to(setup, world, "lx_125", GOAL)))
 
 
@@ -63,7 +63,7 @@ def test_fingers_that_close_on_nothing_are_a_missed_grasp(setup: Setup) -> None:
     path = path_to(setup, world, "lx_125", GOAL)
     elsewhere = moved_by_hand(world, "lx_125", 200.0)
     physics = PhysicsWorld(setup, elsewhere)
-    with pytest.raises(MoveFailed, match="missed lx_125") as caught:
+    with pytest.raises(Failed, match="missed lx_125") as caught:
         finish(physics, physics.move(to("lx_125", GOAL), path))
     assert caught.value.diagnostic.code == "missed-grasp"
     assert physics.world(elsewhere).components["lx_125"] == elsewhere.components["lx_125"]
@@ -75,7 +75,7 @@ def test_a_part_that_is_let_go_in_the_air_falls_and_is_reported(setup: Setup) ->
     while physics.carried("arm1") is None or physics.twin.placement("lx_125").position[2] < 0.14:
         physics.advance(next(work))
     physics.twin.grip("arm1", 84.0)
-    with pytest.raises(MoveFailed, match="dropped lx_125"):
+    with pytest.raises(Failed, match="dropped lx_125"):
         finish(physics, work)
     body = physics.world(world).components["lx_125"]
     assert body.presence in ("toppled", "seen")

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from physical import bench, carry, finish, fresh, path_to, to
 
-from pico.backends.sim.checks import standing
-from pico.backends.sim.mover import MoveFailed
+from pico.backends.attempt import Failed
+from pico.backends.checks import standing
 from pico.backends.sim.physics import PhysicsWorld, seeing
 from pico.backends.sim.world import World, new_world
 from pico.manifest.catalog import packaged_type
@@ -84,7 +84,7 @@ def test_black_pictures_make_it_leave_the_part_alone(setup: Setup, tmp_path: Pat
     dark = changed(setup, errors=SimErrors(lost_frames=1.0), sight="pixels")
     world = new_world(dark)
     physics = PhysicsWorld(dark, world, sight=seeing(dark, world, tmp_path))
-    with pytest.raises(MoveFailed, match=f"no camera sees {PART} in the hand of arm1: it was left there") as caught:
+    with pytest.raises(Failed, match=f"no camera sees {PART} in the hand of arm1: it was left there") as caught:
         finish(physics, physics.move(to(PART, GOAL), path_to(dark, world, PART, GOAL)))
     assert caught.value.diagnostic.code == "unseen"
     assert physics.world(world).components[PART] == world.components[PART]
@@ -114,7 +114,7 @@ def test_what_is_not_where_it_should_be_in_the_hand_goes_back(
     start = world.components[PART].pose
     assert start is not None
     physics = PhysicsWorld(setup, world, sight=sight)  # type: ignore[arg-type]
-    with pytest.raises(MoveFailed, match="put back") as caught:
+    with pytest.raises(Failed, match="put back") as caught:
         finish(physics, physics.move(to(PART, GOAL), path_to(setup, world, PART, GOAL)))
     after = physics.world(world)
     pose = after.components[PART].pose

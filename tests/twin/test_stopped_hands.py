@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 from physical import bench, carry, finish, path_to, to
 
-from pico.backends.sim.checks import standing
+from pico.backends.attempt import Failed
+from pico.backends.checks import standing
 from pico.backends.sim.hand import remove
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.backends.sim.mover import MoveFailed
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.world import World, new_world
 from pico.model.pose import Pose
@@ -97,7 +97,7 @@ class Blind(Exact):
 
 def test_a_hand_that_leaves_a_part_alone_opens_no_further_than_it_has_room(setup: Setup, world: World) -> None:
     physics = PhysicsWorld(setup, world, sight=Blind)
-    with pytest.raises(MoveFailed, match="it was left there"):
+    with pytest.raises(Failed, match="it was left there"):
         finish(physics, physics.move(to(PART, GOAL), path_to(setup, world, PART, GOAL)))
     assert physics.world(world).components == world.components
 
@@ -111,6 +111,6 @@ def test_a_part_that_somebody_took_away_is_told_before_a_hand_goes_for_it(setup:
     path = path_to(setup, world, PART, GOAL)
     gone = remove(setup, world, PART)
     physics = PhysicsWorld(setup, gone)
-    with pytest.raises(MoveFailed) as failed:
+    with pytest.raises(Failed) as failed:
         finish(physics, physics.move(to(PART, GOAL), path))
     assert failed.value.diagnostic.code == "missing"

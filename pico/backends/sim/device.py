@@ -18,7 +18,6 @@ from pico.diagnostics import Diagnostic, PicoError
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
-from pico.model.pose import Pose
 from pico.model.record import remembered
 from pico.model.setup import Setup
 from pico.model.trace.event import Event
@@ -173,15 +172,9 @@ class SimDevice:
 
     def _note_placed(self, operation: Operation, result: OperationResult) -> None:
         """Remember where an arm put a part down, for it may hide it from the cameras; also after a kill."""
-        from pico.backends.last_seen import LastSeen, recall, remember, repeated
+        from pico.backends.last_seen import placed_at, recall, remember
 
-        after, name, time = result.after, operation.component, result.ended
-        if after and after.pose and after.how in ("stereo", "known height", "in hand"):
-            self._placed[name] = LastSeen(pose=after.pose, uncertainty=after.uncertainty, time=time)
-        else:
-            pose = Pose(**operation.arguments["to"]["pose"])
-            sigma = repeated(self.setup, name)
-            self._placed[name] = LastSeen(pose=pose, uncertainty=sigma, time=time, placed=True)
+        self._placed[operation.component] = placed_at(self.setup, operation, result)
         if self.setup.lab.sim.runs_by_sight(self.fidelity):
             remember(self.root, {**recall(self.root), **self._placed})
 
@@ -200,6 +193,9 @@ class SimDevice:
         if self._session is not None:
             await self._session.idle()
             self._session = None
+
+    async def close(self) -> None:
+        """Nothing leads to a simulated bench."""
 
     def kept(self) -> bool:
         """Return whether the table is stored."""

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Generator
 from dataclasses import replace
 
-from pico.backends.sim import checks
+from pico.backends import checks
+from pico.backends.attempt import Failed
 from pico.backends.sim.faults import LOOK, LOOKS, Fault, Faults, beside, room_at
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.backends.sim.mover import MoveFailed, WorldMover
+from pico.backends.sim.mover import WorldMover
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Tunable
 from pico.model.observation import ObservedValue, Presence
@@ -16,6 +17,7 @@ from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.setup import Setup
+from pico.motion.types import Stage
 
 Steps = Generator[float, None, None]
 UPRIGHT = 0.7
@@ -52,7 +54,7 @@ class Mishaps:
     def looked_at(self, name: str, pose: Pose, fault: Fault | None) -> Generator[float, None, Pose]:
         """Return where a part that was put down at `pose` is seen: two looks that agree are believed.
 
-        Raises MoveFailed, outcome unknown, where no look shows it.
+        Raises Failed, outcome unknown, where no look shows it.
         """
         if fault is None or fault.kind not in ("camera", "reading"):
             return pose
@@ -65,10 +67,10 @@ class Mishaps:
         if believed:
             return believed[-1]
         self.unseen.add(name)
-        raise MoveFailed(checks.unseen(name), "unknown")
+        raise Failed(checks.unseen(name), "unknown")
 
     def strike(self, fault: Fault, robot: str, name: str, let_rest: Callable[[], None]) -> Steps:
-        """Let a part drop out of the hand on its way, or the arm stop with it; raises MoveFailed.
+        """Let a part drop out of the hand on its way, or the arm stop with it; raises Failed.
 
         `let_rest` ends what the arm does, so that it holds where it is.
         """
@@ -82,17 +84,17 @@ class Mishaps:
         yield REST
         pose = self._mover.carried(robot)
         if fault.kind == "jam" or pose is None:
-            raise MoveFailed(checks.jammed(robot, name))
+            raise Failed(checks.jammed(robot, name))
         presence = self._fallen(name, pose, fault)
         assert isinstance(self._mover, KinematicWorld)  # else it has a twin
         self._mover.let_go(name, pose, presence)
-        raise MoveFailed(checks.dropped(robot, name))
+        raise Failed(checks.dropped(robot, name))
 
     def shone(self, world: World, fault: Fault | None) -> World:
-        """Return a table as its light is now: without any, or with too much of it, for a while; raises MoveFailed where
+        """Return a table as its light is now: without any, or with too much of it, for a while; raises Failed where
         what is measured gets lost."""
         if fault is not None and fault.kind == "frame":
-            raise MoveFailed(checks.frame_lost())
+            raise Failed(checks.frame_lost())
         if fault is not None and fault.kind in ("beam", "flood"):
             share = 0.0 if fault.kind == "beam" else fault.draw.uniform(*FLOOD)
             self._odd = world.clock + fault.draw.uniform(*DARK), share
@@ -112,11 +114,11 @@ class Mishaps:
 
 
 def driven_badly(fault: Fault | None, address: str, seconds: float, stuck: bool = False) -> Steps:
-    """Let what is wrong with an axis take its time; raises MoveFailed where it does not get there. `stuck`: it has been
+    """Let what is wrong with an axis take its time; raises Failed where it does not get there. `stuck`: it has been
     for some time."""
     if stuck:
         yield seconds
-        raise MoveFailed(checks.axis_jammed(address))
+        raise Failed(checks.axis_jammed(address))
     if fault is None:
         return
     if fault.kind == "slow":
@@ -125,11 +127,11 @@ def driven_badly(fault: Fault | None, address: str, seconds: float, stuck: bool 
         yield LOOK  # the first reading is wrong, so it is read again, and again
     elif fault.kind in ("jam", "stick"):
         yield seconds * fault.at
-        raise MoveFailed(checks.axis_jammed(address))
+        raise Failed(checks.axis_jammed(address))
     elif fault.kind == "timeout":
         yield 2 * seconds
         if fault.draw.random() < 0.5:  # it did nothing; else it did, and only its answer was lost
-            raise MoveFailed(checks.no_answer(address))
+            raise Failed(checks.no_answer(address))
 
 
 def on_the_way(kind: Tunable, live: ObservedValue, goal: Value, fault: Fault | None) -> ObservedValue:
@@ -156,3 +158,11 @@ def _readings(pose: Pose, fault: Fault) -> list[Pose | None]:
 
 def _standing(world: World) -> dict[str, Pose]:
     return {n: b.pose for n, b in world.components.items() if b.pose and b.presence != "held"}
+
+
+def strikes(fault: Fault, stage: Stage) -> bool:
+    """Return whether what goes wrong on the way of a part does so by now: in the middle of its transit, or right
+    after where nobody looked in between."""
+    if fault.kind not in ("drop", "jam"):
+        return False
+    return stage.segment == "lower" or (stage.segment == "transit" and stage.share >= fault.at)

@@ -7,7 +7,8 @@ from collections.abc import Generator, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.backends.sim.mover import InProgress, MoveFailed
+from pico.backends.attempt import Failed
+from pico.backends.sim.mover import InProgress
 from pico.backends.sim.world import World, put_down
 from pico.geometry.seat import Seat
 from pico.model.observation import ObservedRobot, Presence
@@ -149,7 +150,7 @@ class KinematicWorld:
             step = min(self.step, segment.seconds - elapsed)
             try:
                 yield step
-            except MoveFailed:
+            except Failed:
                 yield from self._brake(robot, segment, elapsed)
                 raise
             elapsed += step

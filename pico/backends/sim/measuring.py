@@ -6,15 +6,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from pico.backends.attempt import Failed
-from pico.backends.conditions import conditions
+from pico.backends.measured import measurement
 from pico.backends.sim.checks import not_simulated
 from pico.backends.sim.readings import Measurer, Table, measurer_of
 from pico.backends.sim.world import World, observe
-from pico.content.arrays import keep_array
-from pico.content.store import store_of
 from pico.diagnostics import PicoError
 from pico.model.catalog import Measurable
-from pico.model.measurement import PEEKED, Condition, Measurement
+from pico.model.measurement import Measurement
 from pico.model.setup import Setup
 
 
@@ -43,25 +41,4 @@ def measured(
     known, measurer = require_simulated(setup, component, name)
     reading = measurer.read(Table(setup, root, light or world), component, name)
     seen = observe(world, "sim", "")
-    said: dict[Condition, str] = {**conditions(setup, seen, component, known, busy or ())}
-    if reading.saturated is not None:
-        said["not saturated"] = reading.saturated
-    if busy is None:
-        said = dict.fromkeys(said, PEEKED)
-    own = {n: v for n, v in seen.known_values.get(component, {}).items() if n != name}
-    return Measurement(
-        component=component,
-        measurable=name,
-        value=reading.value,
-        array=None if reading.array is None else keep_array(store_of(root), reading.array),
-        unit=known.unit or reading.unit,
-        sigma=reading.sigma,
-        unknown=reading.unknown or None,
-        settings={**own, **reading.settings},
-        time=world.clock,
-        at=at,
-        kernel=reading.kernel,
-        kernel_version=reading.kernel_version,
-        assured=tuple(condition for condition, why in said.items() if not why),
-        not_assured={condition: why for condition, why in said.items() if why},
-    )
+    return measurement(setup, root, seen, known, reading, component, name, busy, at)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Generator
 from typing import TYPE_CHECKING, Any, Protocol
 
-from pico.backends.attempt import Failed
 from pico.backends.sim.world import World
 from pico.model.operation import Operation
 from pico.model.pose import Pose
@@ -19,10 +18,6 @@ InProgress = Generator[float, None, dict[str, Any]]
 """An operation in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
 
 
-class MoveFailed(Failed):
-    """A motion that did not do what it should: a missed grasp, a drop, a slip. Carries the diagnostic."""
-
-
 class WorldMover(Protocol):
     """Moves robots and components. The backend alone advances time; generators only say when to resume them."""
 
@@ -33,7 +28,7 @@ class WorldMover(Protocol):
     def move(self, operation: Operation, path: MovePath, stands: Pose | None = None) -> InProgress:
         """Pick and place `operation.component` along `path`; `stands`: where it was seen just now, if it was.
 
-        The generator returns what it corrected, and raises MoveFailed. Closed early, it leaves robot and component as
+        The generator returns what it corrected, and raises Failed. Closed early, it leaves robot and component as
         they are at that moment.
         """
         ...

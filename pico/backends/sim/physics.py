@@ -8,8 +8,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.attempt import Failed
 from pico.backends.sim.bodies import body_placement
-from pico.backends.sim.mover import InProgress, MoveFailed
+from pico.backends.sim.mover import InProgress
 from pico.backends.sim.world import FreePose, World, WorldBody, put_down
 from pico.diagnostics import error
 from pico.geometry.seat import Seat
@@ -87,14 +88,14 @@ class PhysicsWorld:
     def move(self, operation: Operation, path: MovePath, stands: Pose | None = None) -> InProgress:
         """Pick `operation.component`, carry and place it along `path`; see `Handling.run` for what is returned.
 
-        Raises MoveFailed where the part was missed, dropped or toppled: then the hand is open and above the table.
+        Raises Failed where the part was missed, dropped or toppled: then the hand is open and above the table.
         """
         self._require_fingers(path.robot)
         name, goal = operation.component, Pose(**operation.arguments["to"]["pose"])
         if name not in self._own:
             text = f"{name} is not on the table, nor in the hand of {path.robot}: somebody took it"
             hint = "put it back; `pico recover --fidelity kinematic` parks the arm"
-            raise MoveFailed(error("missing", text, hint=hint, address=name))
+            raise Failed(error("missing", text, hint=hint, address=name))
         grasp, robot = self._setup.type_of(name).geometry.grasp, self._setup.lab.robots[path.robot]
         assert grasp is not None  # else it has no path
         handling = Handling(self.twin, robot, name, grasp, path, goal, self._sight, stands, self._seat)
@@ -162,8 +163,8 @@ class PhysicsWorld:
         try:
             return (yield from work)
         except Lost as lost:
-            raise MoveFailed(lost.diagnostic) from lost
-        except (MoveFailed, GeneratorExit):
+            raise Failed(lost.diagnostic) from lost
+        except (Failed, GeneratorExit):
             self.twin.hold(robot)
             raise
 
@@ -176,7 +177,7 @@ class PhysicsWorld:
         if settings.model == "xarm7" and settings.gripper.fingers != "none":
             return
         text = f"physics has no model of {robot}: it knows the xArm7 with fingers only"
-        raise MoveFailed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
+        raise Failed(error("not-simulated", text, hint="use `--fidelity kinematic`"))
 
 
 def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight] | None:

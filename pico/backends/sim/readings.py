@@ -3,20 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
-from typing import TYPE_CHECKING, Any, Protocol, cast
+from typing import Protocol, cast
 
+from pico.backends.measured import Reading
 from pico.backends.sim.world import World
-from pico.model.quantities import Value
 from pico.model.setup import Setup
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
 
 FOLDER = "pico.backends.sim.measurables"
 
@@ -28,23 +24,6 @@ class Table:
     setup: Setup
     root: Path
     world: World
-
-
-@dataclass(frozen=True, eq=False)
-class Reading:
-    """What was read: see `pico.model.measurement.Measurement`. `array`: what is too large for a line. `saturated`: how
-    much of it was, in words, empty for nothing; None where that means nothing. `unit`: where the
-    measurable says none. `unknown`: why there is no value."""
-
-    value: Value | Mapping[str, Value] | None
-    array: NDArray[Any] | None = None
-    sigma: float | Mapping[str, float] | None = None
-    settings: Mapping[str, Value] = field(default_factory=dict)
-    kernel: str | None = None
-    kernel_version: str | None = None
-    saturated: str | None = None
-    unit: str = ""
-    unknown: str = ""
 
 
 class Measurer(Protocol):

@@ -5,33 +5,36 @@ from __future__ import annotations
 import asyncio
 import math
 import time
-from collections.abc import Callable, Generator, Iterator, Mapping
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Generator, Mapping
+from contextlib import suppress
 from dataclasses import asdict, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.backends.attempt import attempt
+from pico.backends import checks, last_seen, ways
+from pico.backends.attempt import Failed, attempt
+from pico.backends.by_sight import BySight
 from pico.backends.device import Began
+from pico.backends.halting import sooner, way_out
 from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
-from pico.backends.sim import checks
 from pico.backends.sim.bodies import snapshot
-from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly, on_the_way
+from pico.backends.sim.checks import refused, shut
+from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly, on_the_way, strikes
 from pico.backends.sim.faults import LASTING, Fault, Faults
-from pico.backends.sim.halting import sooner, strikes, way_out
 from pico.backends.sim.kinematic import KinematicWorld
-from pico.backends.sim.known import BySight, Exactly, Known
+from pico.backends.sim.known import Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
-from pico.backends.sim.mover import InProgress, MoveFailed, WorldMover
+from pico.backends.sim.mover import InProgress, WorldMover
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.readings import Table
+from pico.backends.sim.senses import sensed
 from pico.backends.sim.steering.axis import driven
 from pico.backends.sim.steering.pace import STEP, Pace
 from pico.backends.sim.store import save_world
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.model.observation import ObservedComponent, ObservedValue, doubtful, slot_at
+from pico.model.observation import Observation, ObservedComponent, ObservedValue, doubtful, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -40,13 +43,13 @@ from pico.model.setpoint import home_seconds, set_seconds
 from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
-from pico.motion.zones import enters, shared_zones
 from pico.teleop.frames import STEPS
 from pico.twin.snapshot import Snapshot
 from pico.vision.calibration import known_arms
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
+    from pico.vision.frame import Frame, Region
 
 PROGRESS = 0.25
 """Simulated seconds between two reports of an operation's progress, at least."""
@@ -87,10 +90,18 @@ class WorldSession:
         self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._told, self._halting, self._kept = 0, False, 0.0
-        here = self.world
-        self._known: Known = BySight(setup, root, here, self._mover, look) if look else Exactly(here)
-        self._zones: dict[str, set[str]] = {}  # by the arm that may be there now
+        self._known: Known = self._by_sight(look) if look else Exactly(self.world)
+        self._zones = ways.Zones(setup)
         self._mishaps = Mishaps(setup, faults or Faults(), token, self._mover, self.world)
+
+    def _by_sight(self, look: Callable[[], Look]) -> BySight:
+        def felt(taken: Mapping[str, last_seen.Taken]) -> Observation:
+            return sensed(self._setup, self.world(), taken, "sim", "")
+
+        def take(camera: str, region: Region) -> Frame:
+            return self._mover.eyes(self.world()).frame(camera, region)
+
+        return BySight(self._setup, self._root, felt, look, take, self._mover.left)
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
         """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
@@ -120,7 +131,7 @@ class WorldSession:
             self._keep_pace()
         try:
             return await asyncio.shield(self._time.start(key, attempt(self, operation, key, begins)))
-        except MoveFailed as exc:
+        except Failed as exc:
             raise PicoError(exc.diagnostic, ExitCode.INTERRUPTED) from exc
 
     def _keep_pace(self) -> None:
@@ -145,9 +156,9 @@ class WorldSession:
     async def stop(self) -> None:
         """Stop everything under way: arms come to rest, hands hold what they hold, shutters close."""
         self._halting = True
-        self._time.interrupt(MoveFailed(checks.STOPPED))
+        self._time.interrupt(Failed(checks.STOPPED))
         await self._time.idle()
-        dark = checks.shut(self._setup, self._world)
+        dark = shut(self._setup, self._world)
         if dark is not self._world:
             self._world = dark
             self.store()
@@ -166,7 +177,7 @@ class WorldSession:
             return None
         try:
             return self._known.seen().components.get(component)
-        except MoveFailed:
+        except Failed:
             return None
 
     def store(self) -> None:
@@ -216,14 +227,14 @@ class WorldSession:
         if why is not None:
             if why.code == "dark":  # nothing was found out: as it was
                 self._world = self._world.with_value(name, tunable, ObservedValue(value=frames[0].exposure))
-            raise MoveFailed(why)
+            raise Failed(why)
         return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:
         """Do what a plug-in brought, in the time that the plan reckons with."""
         does = plugged_in().get(operation.primitive)
         if does is None:
-            raise checks.refused(operation)
+            raise refused(operation)
         yield operation.seconds
         self._world = does(self._world, operation)
         return {}
@@ -247,7 +258,7 @@ class WorldSession:
                 off = {"error_mm": there.distance(goal), "error_deg": abs(angle_between(goal.yaw, there.yaw))}
                 return {**off, **data}
             if not left:
-                raise MoveFailed(wrong)
+                raise Failed(wrong)
             planned, fault = there, None
             operation = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(there)}})
         raise checks.not_standing(name, part.presence)
@@ -256,38 +267,26 @@ class WorldSession:
         """Pick and place once: the path is found anew, from where arm and component are."""
         name = operation.component
         stands = None if checks.in_hand(operation) else self._known.survey(name)
-        start, path = self._way(operation, planned, checks.places(operation)[1])
+        goal = checks.places(operation)[1]
+        start, path = ways.carrying(self._setup, self._motion, self._known.seen(), operation, planned, goal)
         if isinstance(path, Blocked):
             raise checks.blocked(name, path)
         checks.require_dark(self._setup, self._known.seen(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
         self._known.takes(name, path)
         try:
-            with self._in_zones(operation, path):
+            with self._zones.held(operation, path):
                 return (yield from self._reported(actual, key, path, self._mover.move(actual, path, stands), fault))
-        except MoveFailed as exc:
+        except Failed as exc:
             try:
                 part = self._known.confirm(name, start)
-            except MoveFailed:  # nothing can be seen, which is not what went wrong first
+            except Failed:  # nothing can be seen, which is not what went wrong first
                 raise exc from None
             if exc.diagnostic.code not in checks.LOST:
                 raise
-            raise MoveFailed(checks.found_again(exc.diagnostic, name, part), exc.outcome) from exc
-
-    def _way(self, operation: Operation, planned: Pose, goal: Pose) -> tuple[Pose, MovePath | Blocked]:
-        """Return where a part stands, or is in the hand, and the path that takes it from there to its goal."""
-        seen, name, robot = self._known.seen(), operation.component, operation.robot or ""
-        standing, joints = checks.standing(self._setup, seen), seen.robots
-        if checks.in_hand(operation):
-            held = checks.require_held(self._setup, seen, operation)
-            now = joints[robot].joints
-            return held, self._motion.set_down(robot, name, held, goal, standing, now, self._elsewhere(robot))
-        start = checks.require_ready(self._setup, seen, operation, planned)
-        path = self._motion.move(
-            robot, name, start, goal, float(operation.arguments.get("grasp_yaw", 0.0)), standing, joints[robot].joints,
-            self._elsewhere(robot),
-        )  # fmt: skip
-        return start, path
+            raise Failed(
+                checks.found_again(exc.diagnostic, name, part, f" (here `pico sim nudge {name}`)"), exc.outcome
+            ) from exc
 
     def _take(self, operation: Operation, key: str) -> InProgress:
         """Take a part in hand where it stands, a hair above its place."""
@@ -335,13 +334,13 @@ class WorldSession:
     ) -> InProgress:
         """Walk a way that a person steers; the beam is shut, and no other arm is there."""
         if isinstance(path, Blocked):
-            raise MoveFailed(error("blocked", path.text, hint=path.help, address=operation.component))
+            raise Failed(error("blocked", path.text, hint=path.help, address=operation.component))
         checks.require_dark(self._setup, self._known.seen(), operation)
         ends = {"from": {"pose": as_json(goal)}, "to": {"pose": as_json(goal)}}
         if any(segment.name == "grip" for segment in path.segments):
             self._known.takes(operation.component, path)
         meant = replace(operation, arguments={**operation.arguments, **ends})
-        with self._in_zones(operation, path):
+        with self._zones.held(operation, path):
             return (yield from self._reported(meant, key, path, self._mover.move(meant, path, stands)))
 
     def _driven(self, operation: Operation) -> InProgress:
@@ -351,7 +350,7 @@ class WorldSession:
         live = self._world.components[name].values[tunable]
         goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
         if not isinstance(live.value, int | float) or live.status == "unknown" or not isinstance(goal, int | float):
-            raise MoveFailed(error("unknown", f"nobody knows where {name}.{tunable} stands", address=name))
+            raise Failed(error("unknown", f"nobody knows where {name}.{tunable} stands", address=name))
         for seconds, value in driven(f"{name}.{tunable}", kind, float(live.value), float(goal)):
             yield seconds
             self._world = self._world.with_value(name, tunable, replace(live, value=value))
@@ -360,32 +359,14 @@ class WorldSession:
     def _park(self, operation: Operation, key: str) -> InProgress:
         robot = operation.robot or operation.component
         if robot not in self._setup.lab.robots:
-            raise MoveFailed(error("bad-plan", f"the bench has no robot {robot}"))
+            raise Failed(error("bad-plan", f"the bench has no robot {robot}"))
         seen = self._known.seen()
         checks.require_empty(seen, robot)
-        joints = seen.robots[robot].joints
-        path = self._motion.park(robot, joints, checks.standing(self._setup, seen), self._elsewhere(robot))
+        path = ways.parking(self._setup, self._motion, seen, robot)
         if isinstance(path, Blocked):
             raise checks.blocked(robot, path)
-        with self._in_zones(operation, path):
+        with self._zones.held(operation, path):
             return (yield from self._reported(operation, key, path, self._mover.park(path)))
-
-    @contextmanager
-    def _in_zones(self, operation: Operation, path: MovePath) -> Iterator[None]:
-        """Keep others out of the zones that an operation holds, or comes into on the way found anew, while it runs.
-
-        Raises MoveFailed where that way comes into a zone of another arm at work: the plan let both run at once.
-        """
-        shared = [z for z in shared_zones(self._setup) if path.robot in z.robots]
-        inside = {z.name for z in shared if enters(self._setup, z, path)}
-        for robot, zones in self._zones.items():
-            if inside & zones:
-                raise checks.meets(operation.component, robot, min(inside & zones))
-        self._zones[path.robot] = inside | {z.name for z in shared if z.name in operation.resources}
-        try:
-            yield
-        finally:
-            del self._zones[path.robot]
 
     def _elsewhere(self, robot: str) -> dict[str, Joints]:
         """Return the joints of the other arms as they are now."""
@@ -440,7 +421,7 @@ class WorldSession:
                     self._keep()
                 try:
                     yield wait
-                except MoveFailed as exc:
+                except Failed as exc:
                     decided = True  # it comes to rest where it is
                     wait = work.throw(exc)
                 else:
@@ -454,7 +435,7 @@ class WorldSession:
     ) -> Generator[float, None, bool]:
         """End a move that is halted sooner than at its goal where that can be; return whether it is decided.
 
-        Raises MoveFailed once the part is back, or left where it stands, and the arm at a safe waypoint.
+        Raises Failed once the part is back, or left where it stands, and the arm at a safe waypoint.
         """
         way = way_out(path, stage)
         if way in ("goes_on", "undecided"):
@@ -463,7 +444,7 @@ class WorldSession:
             self._drop_work(work)
             yield REST
             yield from self._withdraw(path.robot)
-            raise MoveFailed(checks.left(operation.component))
+            raise Failed(checks.left(operation.component))
         start, _, _ = checks.places(operation)
         back = self._back(operation, start)
         if back is None or not sooner(path, stage, back):
@@ -474,33 +455,22 @@ class WorldSession:
         there = {**operation.arguments, "to": {"pose": as_json(start)}}
         yield from self._mover.move(replace(operation, arguments=there), back)
         where = slot_at(self._setup, start) or str(start)
-        raise MoveFailed(checks.put_back(operation.component, where))
+        raise Failed(checks.put_back(operation.component, where))
 
     def _back(self, operation: Operation, start: Pose) -> MovePath | None:
-        """Return the way back to where a part was picked, or None where there is none or the hand holds nothing."""
-        robot, seen = operation.robot or "", self._known.seen()
-        part, joints = seen.components[operation.component], seen.robots[robot].joints
-        if part.presence != "held" or part.pose is None:
-            return None
-        standing = checks.standing(self._setup, seen)
-        back = self._motion.set_down(
-            robot, operation.component, part.pose, start, standing, joints, self._elsewhere(robot)
-        )
-        return None if isinstance(back, Blocked) else back
+        return ways.back(self._setup, self._motion, self._known.seen(), operation, start)
 
     def _drop_work(self, work: InProgress) -> None:
         """Let an arm stop where it is, in the middle of what it does."""
         try:
             while True:
-                work.throw(MoveFailed(checks.STOPPED))
-        except (MoveFailed, StopIteration):
+                work.throw(Failed(checks.STOPPED))
+        except (Failed, StopIteration):
             pass
 
     def _withdraw(self, robot: str) -> Generator[float, None, None]:
         """Bring an arm with an empty hand to its park pose, where there is a way."""
-        seen = self._known.seen()
-        standing = checks.standing(self._setup, seen)
-        path = self._motion.park(robot, seen.robots[robot].joints, standing, self._elsewhere(robot))
+        path = ways.parking(self._setup, self._motion, self._known.seen(), robot)
         if not isinstance(path, Blocked):
             yield from self._mover.park(path)
 

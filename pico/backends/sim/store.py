@@ -25,18 +25,18 @@ from pico.model.setup import Setup
 from pico.optics.unseen import Unseen
 
 
-def world_path(root: Path) -> Path:
-    """Return where the world of the lab in folder `root` is kept."""
-    return bench_folder(root) / "sim" / "world.json"
+def world_path(root: Path, bench: str = "sim") -> Path:
+    """Return where the world of the lab in folder `root` is kept; `bench`: whose it is."""
+    return bench_folder(root) / bench / "world.json"
 
 
-def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]:
+def load_world(setup: Setup, root: Path, bench: str = "sim") -> tuple[World, tuple[Diagnostic, ...]]:
     """Return the simulated table of the lab in `root` and what had to change because the lab did.
 
     A lab without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
     where the file can't be read.
     """
-    path = world_path(root)
+    path = world_path(root, bench)
     with suppress(OSError):
         sweep(path.parent)
     try:
@@ -53,12 +53,12 @@ def load_world(setup: Setup, root: Path) -> tuple[World, tuple[Diagnostic, ...]]
     return reconcile(setup, world)
 
 
-def save_world(root: Path, world: World, *, durable: bool = True) -> None:
+def save_world(root: Path, world: World, bench: str = "sim", *, durable: bool = True) -> None:
     """Store the world: a reader sees the old one or the new one. Raises PicoError where it can't.
 
     `durable`: on the disk when this returns, so that it outlives a power failure and not only this process.
     """
-    path = world_path(root)
+    path = world_path(root, bench)
     what = f"the simulated table cannot be stored in {path}"
     data = json.dumps(as_json(world), separators=(",", ":"), sort_keys=True).encode()
     write_whole(path, data, what=what, code="world-file", folders=True, durable=durable)

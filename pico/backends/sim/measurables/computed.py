@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import replace
 
 from pico.backends.attempt import Failed
+from pico.backends.measured import Reading
 from pico.backends.sim.checks import not_simulated
-from pico.backends.sim.readings import Reading, Table, measurer_of
+from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError, error
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed

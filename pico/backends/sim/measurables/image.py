@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from pico.backends.attempt import Failed
+from pico.backends.measured import Reading
 from pico.backends.sim.lighted import detects, light_on, room_light
-from pico.backends.sim.readings import Reading, Table
+from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from pico.backends.measured import Reading
 from pico.backends.sim.lighted import standing_on
-from pico.backends.sim.readings import Reading, Table
+from pico.backends.sim.readings import Table
 from pico.model.setup import Setup
 
 NOISE = 0.001

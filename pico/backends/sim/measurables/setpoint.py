@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from pico.backends.attempt import Failed
-from pico.backends.sim.readings import Reading, Table
+from pico.backends.measured import Reading
+from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 import math
 
 from pico.backends.attempt import Failed
+from pico.backends.measured import Reading
 from pico.backends.sim.lighted import alone, detects, light_on
-from pico.backends.sim.readings import Reading, Table
+from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
 

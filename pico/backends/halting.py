@@ -1,10 +1,10 @@
-"""What a halted arm does with the move that it is in the middle of: whichever leads to a safe end sooner."""
+"""What a halted arm does with the move that it is in the middle of: whichever leads to a safe end sooner. For every
+backend."""
 
 from __future__ import annotations
 
 from typing import Literal
 
-from pico.backends.sim.faults import Fault
 from pico.motion.types import MovePath, Stage
 
 Way = Literal["goes_on", "leaves_it", "undecided", "may_turn_back"]
@@ -21,14 +21,6 @@ def way_out(path: MovePath, stage: Stage) -> Way:
     if stage.segment == "grip":
         return "undecided"
     return "may_turn_back" if stage.segment in ("lift", "transit") else "goes_on"
-
-
-def strikes(fault: Fault, stage: Stage) -> bool:
-    """Return whether what goes wrong on the way of a part does so by now: in the middle of its transit, or right
-    after where nobody looked in between."""
-    if fault.kind not in ("drop", "jam"):
-        return False
-    return stage.segment == "lower" or (stage.segment == "transit" and stage.share >= fault.at)
 
 
 def sooner(path: MovePath, stage: Stage, back: MovePath) -> bool:
