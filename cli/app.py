@@ -24,7 +24,7 @@ from .errors import explain
 from .session import Session, standing
 from .terminal.output import unsaid, write
 
-EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME: `pico --help`."
+EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate: `pico --help`."
 
 
 def _version(value: bool) -> None:
@@ -47,6 +47,10 @@ def root(
         str | None,
         typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=remember),
     ] = None,
+    session_emulate: Annotated[
+        bool,
+        typer.Option("--emulate", help="With --backend hardware: emulators of the devices.", callback=remember),
+    ] = False,
     session_lock_timeout: Annotated[
         float | None,
         typer.Option(

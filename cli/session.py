@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
-from pico.backends.devices import SIMULATOR
+from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR
 from pico.diagnostics import PicoError, error
 
 from .garbage import loaded
@@ -53,7 +53,13 @@ class Session:
     @classmethod
     def of(cls, context: typer.Context) -> Session:
         """Return the session of a command, from the options given before and after its name."""
-        return cls(context=context, **context.meta.get("pico.session", {}))
+        given = dict(context.meta.get("pico.session", {}))
+        if given.pop("emulate", False):
+            if given.get("backend", HARDWARE) not in (HARDWARE, EMULATED):
+                text = f"`--backend {given['backend']}` has no devices that could be emulated"
+                raise PicoError(error("usage", text, hint="`--backend hardware --emulate`"))
+            given["backend"] = EMULATED
+        return cls(context=context, **given)
 
     def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
         """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""

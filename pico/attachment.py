@@ -74,7 +74,7 @@ def own_folder(root: Path) -> Path:
     PICO makes none there: a commit of somebody else brought it, and what PICO writes would go where it points.
     """
     folder = root / FOLDER
-    for path in (folder, folder / "sim"):
+    for path in (folder, folder / "sim", folder / "hardware", folder / "emulated"):
         for link in (path, *_links(path)):
             if link.is_symlink():
                 text = f"{link} is a symbolic link, and PICO would write where it points"

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from datetime import datetime
 from typing import Any
 
+from pico.backends.devices import EMULATED, HARDWARE
 from pico.model.diff import Change
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
@@ -21,6 +22,7 @@ from .diff import brief
 from .style import ago, columns, count, listed, paint, place, seconds, wide, width, wrap
 
 SHOWN_TOLERATED = 5
+REAL = (HARDWARE, EMULATED)
 BAR = 60
 """Columns for the time of a plan, where several arms are drawn in it."""
 
@@ -60,7 +62,10 @@ def data(plan: Plan, **_: Any) -> dict[str, Any]:
 
 def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, now: datetime | None = None) -> str:
     """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted") · only p2 · seen 2 min ago`."""
-    parts = [paint("bold", plan.lab.name), f"{plan.backend} ({plan.fidelity})"]
+    parts = [
+        paint("bold", plan.lab.name),
+        plan.backend if plan.backend in REAL else f"{plan.backend} ({plan.fidelity})",
+    ]
     if single:
         return " · ".join([*parts, "one operation"])
     target = goal or plan.target.name

@@ -84,7 +84,15 @@ def test_a_command_of_one_file_takes_the_shared_options_before_and_after_its_nam
 
 def test_a_command_of_one_file_is_completed(blink: Path, shel: Path) -> None:
     assert candidates(["bl"]) == ["blame", "blink-twice"]
-    assert candidates(["blink-twice", "--"]) == ["--backend", "--debug", "--help", "--how", "--json", "--told-where"]
+    assert candidates(["blink-twice", "--"]) == [
+        "--backend",
+        "--debug",
+        "--emulate",
+        "--help",
+        "--how",
+        "--json",
+        "--told-where",
+    ]
     assert candidates(["blink-twice", "--how", ""]) == ["fast", "slowly"]
     assert candidates(["blink-twice", "--how", "fast", "p"]) == ["p1", "p2"]
 

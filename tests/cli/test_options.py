@@ -158,6 +158,8 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["plan", "e1", "e2"], "extra argument"),
         (["plan", "e9"], "there is no revision `e9`"),
         (["plan", "--backend", "hardware"], "no driver for the arm arm1 (xarm7)"),
+        (["plan", "--backend", "hardware", "--emulate"], "no driver for the arm arm1 (xarm7)"),
+        (["plan", "--backend", "sim", "--emulate"], "has no devices that could be emulated"),
         (["plan", "--backend", "sin"], "did you mean `sim`?"),
         (["plan", "--fidelity", "physic"], "did you mean `physics`?"),
         (["commit", "-m", "x", "--capture", "--planned"], "contradict"),

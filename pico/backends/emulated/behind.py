@@ -1,0 +1,176 @@
+"""What is behind each emulated device of a bench: the part of the world that it moves or looks at."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any, TypeGuard
+
+from pico.backends.attempt import Failed
+from pico.backends.emulated.world import EmulatedWorld
+from pico.backends.hardware.instruments import USUAL
+from pico.backends.sim.readings import Table, measurer_of
+from pico.diagnostics import PicoError
+from pico.model.quantities import Value, convert
+from pico.model.wiring import DeviceEntry, Wired
+from pico.motion.types import Joints
+
+if TYPE_CHECKING:
+    from pico.backends.sim.sight import Posed
+    from pico.backends.sim.world import World
+
+
+class OfArm:
+    """An arm with its hand: joints as its motors have them [rad], fingers [mm]."""
+
+    def __init__(self, world: EmulatedWorld, robot: str) -> None:
+        self._world, self._robot = world, robot
+        self._own: dict[str, Any] = {}
+
+    def now(self) -> float:
+        return self._world.now()
+
+    def read(self, what: str) -> Any:
+        """`joints` and `width` now; `pace`; `fingers` and `moved`: what the emulator calls, see `XArmEmulator`."""
+        if what == "joints":
+            return self._world.motors(self._robot)
+        if what == "width":
+            return self._world.width(self._robot)
+        given = {"pace": self._world.pace, "fingers": self._fingers, "moved": self._moved}
+        return given.get(what, self._own.get(what))
+
+    def write(self, what: str, value: Any) -> None:
+        """Keep what the emulator says of itself."""
+        self._own[what] = value
+
+    def _fingers(self, joints: Joints, wanted: float, now: float) -> float:
+        return self._world.fingers(self._robot, self._world.nominal(self._robot, joints), wanted, now)
+
+    def _moved(self, joints: Joints, seconds: float) -> int:
+        self._world.moved(self._robot, self._world.nominal(self._robot, joints))
+        return 0
+
+
+class OfPart:
+    """A device of a component: each property of its driver is a tunable, in the device's own numbers."""
+
+    def __init__(self, world: EmulatedWorld, device: str, entry: DeviceEntry, component: str, kind: str) -> None:
+        self._world, self._device, self._component = world, device, component
+        self._kind = world.setup.type_of(component)
+        self._is: dict[str, tuple[str, Wired | None]] = {w.property: (t, w) for t, w in entry.map.items()}
+        if not entry.map and kind in USUAL:
+            self._is = {"open" if kind == "shutter" else "on" if kind == "lamp" else "emission": (USUAL[kind], None)}
+
+    def now(self) -> float:
+        return self._world.now()
+
+    def read(self, what: str) -> Any:
+        """The device's number of a tunable; `stuck`: where it does not get past, None where it does."""
+        if what == "stuck":
+            return next((self.read(p) for p, (t, _) in self._is.items() if self._world.stuck(self._component, t)), None)
+        if what in ("frame", "power"):
+            return self._measured("image" if what == "frame" else self._is.get(what, ("power", None))[0])
+        tunable, wired = self._is.get(what, (what, None))
+        if tunable not in self._kind.tunables:
+            return self._world.recalled(self._device, what)
+        value = self._world.value(self._component, tunable)
+        if tunable == "shutter":
+            return value == "open"
+        return wired.to_device(value, self._unit(tunable)) if wired and _number(value) else value
+
+    def write(self, what: str, value: Any) -> None:
+        """Let a tunable be at the device's number."""
+        tunable, wired = self._is.get(what, (what, None))
+        if tunable not in self._kind.tunables:
+            self._world.remember(self._device, what, value)
+            return
+        there: Value = wired.to_lab(value, self._unit(tunable)) if wired and _number(value) else value
+        if tunable == "shutter":
+            there = "open" if value else "closed"
+        self._world.set_value(self._component, tunable, there)
+
+    def _measured(self, name: str) -> Any:
+        """The picture, or the power [W], that the twin's instrument gives; None where it gives none."""
+        found = measurer_of(self._world.setup, self._component, name)
+        try:
+            table = Table(self._world.setup, self._world.root, self._world.world())
+            reading = found.read(table, self._component, name) if found else None
+        except (Failed, PicoError):
+            return None
+        if reading is None or reading.array is not None:
+            return reading.array if reading else None
+        unit = self._world.setup.measurables_of(self._component)[name].unit
+        return float(convert(f"{reading.value!r} {unit}", "W")) if _number(reading.value) else None
+
+    def _unit(self, tunable: str) -> str:
+        return self._kind.tunables[tunable].unit
+
+
+class OfCamera:
+    """A camera over the bench: what it sees, gray levels."""
+
+    def __init__(self, world: EmulatedWorld, camera: str, eyes: SharedEyes) -> None:
+        self._world, self._camera, self._eyes = world, camera, eyes
+        self._own: dict[str, Any] = {}
+
+    def now(self) -> float:
+        return self._world.now()
+
+    def read(self, what: str) -> Any:
+        """`frame`: a picture (rows, columns), uint8, taken now."""
+        return self._eyes.picture(self._camera) if what == "frame" else self._own.get(what)
+
+    def write(self, what: str, value: Any) -> None:
+        """Keep what the camera was told; over the bench it does not matter to what it sees."""
+        self._own[what] = value
+
+
+class OfInput:
+    """A safety input: safe while nobody is at the table."""
+
+    def __init__(self, world: EmulatedWorld) -> None:
+        self._world = world
+        self._own: dict[str, Any] = {}
+
+    def now(self) -> float:
+        return self._world.now()
+
+    def read(self, what: str) -> Any:
+        return not self._world.world().person if what == "safe" else self._own.get(what)
+
+    def write(self, what: str, value: Any) -> None:
+        self._own[what] = value
+
+
+class SharedEyes:
+    """The cameras over the bench, which look at one scene, one at a time; a table that is as it was looks as it did."""
+
+    def __init__(self, world: EmulatedWorld) -> None:
+        self._world, self._lock = world, threading.Lock()
+        self._posed: Posed | None = None
+        self._taken: dict[str, tuple[World, Any]] = {}
+
+    def picture(self, camera: str) -> Any:
+        """Return what a camera sees now, gray levels (rows, columns)."""
+        with self._lock:
+            now = replace(self._world.world(), clock=0.0)
+            if camera not in self._taken or self._taken[camera][0] != now:
+                self._taken[camera] = now, self._scene().eyes(now).frame(camera).gray
+            return self._taken[camera][1]
+
+    def open(self) -> None:
+        """Make the scene, so that the first picture does not take longer than any other."""
+        with self._lock:
+            self._scene()
+
+    def _scene(self) -> Posed:
+        from pico.backends.sim.sight import Posed
+        from pico.vision.calibration import known_arms
+
+        if self._posed is None:
+            self._posed = Posed(self._world.setup, self._world.world(), known_arms(self._world.root), lit=False)
+        return self._posed
+
+
+def _number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -1,0 +1,61 @@
+"""Brings up emulators of all devices of a bench, and the world behind them."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+from pico.backends.emulated.behind import OfArm, OfCamera, OfInput, OfPart, SharedEyes
+from pico.backends.emulated.world import EmulatedWorld
+from pico.diagnostics import PicoError, error
+from pico.drivers.registry import driver
+from pico.emulators.behind import Alone, Behind
+from pico.emulators.registry import EmulatedBench
+from pico.model.setup import Setup
+from pico.model.wiring import DeviceEntry
+
+PACE = "PICO_EMULATED_PACE"
+"""The variable that says how many times faster than the wall's an emulated bench's time goes; 1 without it."""
+
+
+def brought_up(
+    setup: Setup, root: Path, entries: dict[str, DeviceEntry]
+) -> tuple[EmulatedWorld, EmulatedBench]:  # fmt: skip
+    """Start an emulator for each link of a lab's devices, and return the world behind them with the running bench,
+    whose `entries` lead to them. Raises PicoError for a device without emulator, and a world that can't be read."""
+    pace = _pace()
+    world = EmulatedWorld(setup, root, pace)
+    eyes = SharedEyes(world)
+    eyes.open()
+
+    def behind(name: str, entry: DeviceEntry) -> Behind:
+        kind, of = driver(entry.driver).kind, entry.of or name
+        if of in setup.lab.robots:
+            return OfArm(world, of)
+        if kind == "safety input":
+            return OfInput(world)
+        if of in setup.lab.inventory:
+            return OfPart(world, name, entry, of, kind)
+        return OfCamera(world, of, eyes) if of in setup.lab.cameras else Alone()
+
+    paced = {name: _paced(entry, pace) for name, entry in entries.items()}
+    return world, EmulatedBench(paced, behind)
+
+
+def _paced(entry: DeviceEntry, pace: float) -> DeviceEntry:
+    """Return the entry of an arm with the pace at which it is driven: its driver sends set-points by its own clock."""
+    if pace == 1.0 or driver(entry.driver).kind != "arm":
+        return entry
+    return replace(entry, settings={**entry.settings, "pace": pace})
+
+
+def _pace() -> float:
+    said = os.environ.get(PACE, "1")
+    try:
+        pace = float(said)
+    except ValueError:
+        pace = 0.0
+    if not 0 < pace <= 100:
+        raise PicoError(error("pace", f"{PACE}={said[:20]} is no pace", hint="above 0 to 100, such as 10"))
+    return pace

@@ -1,0 +1,214 @@
+"""The simulated world behind emulated devices: arms that stand where their controllers say, parts between fingers,
+axes, light. Kept as `.pico/emulated/world.json`, a table of its own beside the simulator's."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from pathlib import Path
+
+from pico.backends.hardware.settings import Settings
+from pico.backends.sim.store import load_world, save_world
+from pico.backends.sim.world import World, put_down
+from pico.diagnostics import PicoError
+from pico.model.observation import ObservedValue
+from pico.model.pose import Pose, angle_between
+from pico.model.quantities import Value
+from pico.model.setup import Setup
+from pico.motion.kinematics import tool_pose
+from pico.motion.reach import grasp_height
+from pico.motion.types import Joints
+from pico.twin.arms import arms_of
+from pico.vision.calibration import known_arms
+
+FOLDER = "emulated"
+BETWEEN = 15.0
+"""How far a part may be from the middle of the fingers across the table, and in height, to be between them [mm]."""
+ALONG = 10.0
+"""By how much the faces that pads close on may be turned to them [deg]."""
+DROP = 3.0
+"""From how high [mm] a part that fingers let go of does not come to stand any more."""
+KEPT = 0.05
+"""Seconds of wall time after which the world is stored again while something moves."""
+
+
+class EmulatedWorld:
+    """The world of the lab in `root`. Its clock goes on at `pace` times the wall's. Called from any thread."""
+
+    def __init__(self, setup: Setup, root: Path, pace: float = 1.0, wall: Callable[[], float] = time.monotonic) -> None:
+        """Raises PicoError where its file can't be read."""
+        self.setup, self.root, self.pace = setup, root, pace
+        self._wall, self._began = wall, wall()
+        self._world, self.diagnostics = load_world(setup, root, FOLDER)
+        self._since = self._world.clock
+        self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
+        self._devices = Settings(root, FOLDER, "devices.json")
+        self._arms = arms_of(setup, self._world.seed, known_arms(root))
+        self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
+                      for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
+
+    def now(self) -> float:
+        """Return the world's clock [s]."""
+        return self._since + (self._wall() - self._began) * self.pace
+
+    def world(self) -> World:
+        """Return the table as it is at this moment."""
+        with self._lock:
+            return replace(self._world, clock=self.now())
+
+    def change(self, how: Callable[[World], World]) -> None:
+        """Change the table as a hand would, and store it."""
+        with self._lock:
+            self._world = how(self.world())
+            self.store(durable=True)
+
+    def store(self, *, durable: bool = False) -> None:
+        """Store the table where it is another than when it was stored last; raises PicoError where that can't be."""
+        with self._lock:
+            self._kept = self._wall()
+            if self._world == self._stored and not durable:
+                return
+            self._stored = self._world
+            save_world(self.root, self.world(), FOLDER, durable=durable)
+
+    # what devices do to it
+
+    def moved(self, robot: str, joints: Joints) -> None:
+        """Let an arm stand at these nominal joints [rad], with what it holds."""
+        with self._lock:
+            self._stands(robot, joints)
+            if self._wall() - self._kept > KEPT:
+                with suppress(PicoError):  # what comes next says so
+                    self.store()
+
+    def fingers(self, robot: str, joints: Joints, wanted: float, now: float) -> float:
+        """Return how far apart [mm] the fingers of a robot come to rest that are at `now` and go to `wanted`: at the
+        part between them, which they then hold; what they open for is let go of."""
+        with self._lock:
+            self._stands(robot, joints)
+            holding = self._world.robots[robot].holding
+            between = self._between(robot, joints, now) if holding is None and wanted < now else None
+            if between is not None and wanted <= self._width(between):
+                self._take(robot, joints, holding := between)
+            elif holding is not None and wanted > self._width(holding):
+                self._let_go(robot, joints, holding)
+                holding = None
+            reached = max(wanted, self._width(holding)) if holding else wanted
+            self._world = replace(self._world, openings={**self._world.openings, robot: reached})
+            self.store()
+            return reached
+
+    def width(self, robot: str) -> float:
+        """Return how far apart the fingers of a robot are [mm]."""
+        with self._lock:
+            holding = self._world.robots[robot].holding
+            stroke = self.setup.lab.robots[robot].gripper.stroke
+            return self._world.openings.get(robot, self._width(holding) if holding else stroke)
+
+    def joints(self, robot: str) -> Joints:
+        """Return the nominal joints of an arm [rad]."""
+        with self._lock:
+            return self._world.robots[robot].joints
+
+    def motors(self, robot: str) -> Joints:
+        """Return the joints of an arm as its motors have them [rad]."""
+        import numpy as np
+
+        arm, joints = self._arms[robot], self.joints(robot)
+        return tuple(float(q) for q in arm.told(np.array([joints]))[0])
+
+    def nominal(self, robot: str, motors: Joints) -> Joints:
+        """Return the nominal joints of an arm whose motors are at `motors` [rad]."""
+        import numpy as np
+
+        return self._arms[robot].taken(np.array(motors))
+
+    def value(self, component: str, tunable: str) -> Value | None:
+        """Return what a tunable truly reads; None where nobody knows, as before an axis was homed."""
+        with self._lock:
+            return self._world.components[component].values[tunable].value
+
+    def set_value(self, component: str, tunable: str, value: Value) -> None:
+        """Let a tunable be at a value."""
+        with self._lock:
+            if self._world.components[component].values[tunable] == ObservedValue(value=value):
+                return
+            self._world = self._world.with_value(component, tunable, ObservedValue(value=value))
+            self.store()
+
+    def stuck(self, component: str, tunable: str) -> bool:
+        """Return whether no motor moves an axis any more."""
+        with self._lock:
+            return f"{component}.{tunable}" in self._world.stuck
+
+    def recalled(self, device: str, what: str) -> Value | None:
+        """Return what a device keeps of itself, as over a loss of its link; None where it was told nothing."""
+        return self._devices.get(f"{device}.{what}", "") or None
+
+    def remember(self, device: str, what: str, value: Value) -> None:
+        """Let a device keep something of itself: it has power for as long as the world is there."""
+        self._devices.put(f"{device}.{what}", value)
+
+    # parts and hands
+
+    def _stands(self, robot: str, joints: Joints) -> None:
+        self._world = replace(
+            self._world,
+            robots={**self._world.robots, robot: replace(self._world.robots[robot], joints=tuple(joints))},
+        )
+        holding = self._world.robots[robot].holding
+        if holding:
+            pose = self._tool(robot, joints).compose(self._held[robot])
+            self._world = self._world.with_body(holding, presence="held", pose=pose, free=None)
+
+    def _between(self, robot: str, joints: Joints, opening: float) -> str | None:
+        """Return the part that stands between the fingers of a robot; None where none does."""
+        arm, tool = self.setup.lab.robots[robot], self._tool(robot, joints)
+        height = tool_pose(arm, joints)[2]
+        for name, body in self._world.components.items():
+            if name not in self.setup.lab.inventory or body.presence != "seen" or body.pose is None:
+                continue
+            geometry = self.setup.type_of(name).geometry
+            if geometry.grasp is None or geometry.grasp.width > opening:
+                continue
+            off = abs(grasp_height(arm, geometry) - height)
+            jaws = (angle_between(body.pose.yaw + yaw, tool.yaw) for yaw in geometry.grasp.yaws)
+            along = min(min(abs(turn), 180 - abs(turn)) for turn in jaws)
+            if tool.distance(body.pose) <= BETWEEN and off <= BETWEEN and along <= ALONG:
+                return name
+        return None
+
+    def _take(self, robot: str, joints: Joints, name: str) -> None:
+        pose = self._world.components[name].pose
+        assert pose is not None  # it stands
+        self._held[robot] = self._from_tool(robot, joints, pose)
+        now = replace(self._world.robots[robot], holding=name)
+        self._world = replace(self._world.with_body(name, presence="held"), robots={**self._world.robots, robot: now})
+
+    def _let_go(self, robot: str, joints: Joints, name: str) -> None:
+        """Let a part stand where the hand is, or lie there where that is too high above the table."""
+        arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(name).geometry
+        pose = self._tool(robot, joints).compose(self._held.pop(robot))
+        high = tool_pose(arm, joints)[2] - grasp_height(arm, geometry) > DROP
+        times = self.setup.lab.sim.errors.seat or 0.0
+        at, seat = put_down(self.setup, self._world, name, pose, times)
+        self._world = self._world.with_body(
+            name, presence="toppled" if high else "seen", pose=at, free=None,
+            seat=seat if times or self._world.components[name].seat else None,
+        )  # fmt: skip
+        now = replace(self._world.robots[robot], holding=None)
+        self._world = replace(self._world, robots={**self._world.robots, robot: now})
+
+    def _width(self, name: str) -> float:
+        grasp = self.setup.type_of(name).geometry.grasp
+        return grasp.width if grasp else 0.0
+
+    def _tool(self, robot: str, joints: Joints) -> Pose:
+        """Where the tool of an arm truly is, seen from above."""
+        return self._arms[robot].tool(joints, None)
+
+    def _from_tool(self, robot: str, joints: Joints, pose: Pose) -> Pose:
+        return self._tool(robot, joints).inverse().compose(pose)

@@ -1,0 +1,250 @@
+"""A real bench as a device: arms, cameras, mounts and instruments through drivers, or the same through emulators."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Coroutine, Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
+
+from pico.backends.by_sight import BySight
+from pico.backends.device import Began, Capabilities
+from pico.backends.hardware.instruments import Instruments, unwired
+from pico.backends.hardware.links import Links
+from pico.backends.hardware.measuring import Readers
+from pico.backends.hardware.pictures import alike, grayed
+from pico.backends.hardware.reading import sensed, told
+from pico.backends.hardware.session import HardwareSession
+from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
+from pico.diagnostics import PicoError, error
+from pico.drivers.protocols import Arm
+from pico.model.measurement import Measurement
+from pico.model.observation import Observation
+from pico.model.operation import Operation, OperationResult
+from pico.model.setup import Setup
+from pico.model.trace.event import Event
+from pico.motion.deferred import DeferredMotion
+from pico.planning.checks.interlocks import LAMP
+from pico.twin.arms import TwinArm
+from pico.vision.arm import NOMINAL
+from pico.vision.calibration import calibration_digest, known_arms, read_calibration
+from pico.vision.frame import TRIES, Frame
+
+if TYPE_CHECKING:
+    from pico.backends.sight import Look
+    from pico.backends.world import Held, World
+    from pico.twin.snapshot import Snapshot
+    from pico.vision.frame import Region
+
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
+T = TypeVar("T")
+
+
+class HardwareDevice:
+    """The bench of the lab in folder `root`, reached by `links`. `clock` gives the wall time as ISO 8601, UTC; a
+    `fidelity` it has only in name, for plans to be compared."""
+
+    def __init__(
+        self, setup: Setup, root: Path, links: Links, fidelity: str, *, clock: Callable[[], str]
+    ) -> None:  # fmt: skip
+        self.fidelity = fidelity
+        self.setup, self.root, self.links, self._clock = setup, root, links, clock
+        self._motion = DeferredMotion(setup)
+        self._session: HardwareSession | None = None
+        self._placed: dict[str, LastSeen] = {}
+        self._before: tuple[tuple[Observation, str | None], list[Frame], Look] | None = None
+        self._kinds = {n: said.kind for n, said in (setup.wiring.safety_inputs if setup.wiring else {}).items()}
+
+    @property
+    def bench(self) -> str:
+        """`hardware`, or `emulated`."""
+        return self.links.bench
+
+    async def describe(self) -> Capabilities:
+        """Return what the bench can do, as its wiring says; asks no device."""
+        about = self.links.about()
+        readers = Readers(self.setup, self.root, about)
+        return Capabilities(
+            name=self.bench, fidelity=self.fidelity, evidence=self.bench, lab_digest=self.setup.digest(),
+            primitives=PRIMITIVES, robots=tuple(sorted(self.setup.lab.robots)),
+            measurables=frozenset(readers.measurables()), unmodelled=unwired(self.setup, about),
+        )  # fmt: skip
+
+    # looking
+
+    async def observe(self) -> Observation:
+        """Look, and return what was seen; raises PicoError where arms can't tell where they are, and cameras are dark
+        or have moved."""
+        from pico.backends.sight import require_trusted
+
+        return require_trusted((await self.look()).observation)
+
+    async def look(self) -> Look:
+        """Look through the cameras over the table, with the lamps of the room on for it."""
+        bench = await self.links.instruments()
+        return await self._lit(bench, self._looked(bench))
+
+    async def _lit(self, bench: Instruments, work: Coroutine[Any, Any, T]) -> T:
+        """Do something with the lamps of the room on, and bring them back."""
+        lamps = {a: one for a, one in bench.tunables.items() if a.partition(".")[2] == LAMP}
+        was = {address: (await one.read()).value for address, one in lamps.items()}
+        dark = [address for address, value in was.items() if value is not True]
+        try:
+            for address in dark:
+                await lamps[address].set(True)
+            return await work
+        finally:
+            for address in dark:
+                if was[address] is False:
+                    await lamps[address].set(False)
+
+    async def _looked(self, bench: Instruments) -> Look:
+        frames = [await self._frame(bench, name) for name in sorted(bench.cameras)]
+        known = await self._felt(bench, recall_hands(self.root, self.bench))
+        return await asyncio.to_thread(self._seen, frames, known)
+
+    def _seen(self, frames: list[Frame], known: Observation) -> Look:
+        """What frames show; those that are the same to the last pixel show the same."""
+        from pico.backends.sight import BLIND, look
+
+        last, same = {**recall(self.root, self.bench), **self._placed}, calibration_digest(self.root)
+        about = replace(known, time=0.0, observed_at=""), same
+        if (
+            self._before is not None
+            and self._before[0] == about
+            and not self._placed
+            and alike(frames, self._before[1])
+        ):
+            found = self._before[2]
+            return replace(
+                found, observation=replace(found.observation, time=known.time, observed_at=known.observed_at)
+            )
+        found = look(self.setup, frames, read_calibration(self.root), known, last)
+        if not any(problem.code in BLIND for problem in found.observation.problems):
+            remember(self.root, noted(last, found.observation), self.bench)
+            self._placed.clear()
+            self._before = about, frames, found
+        return found
+
+    async def _frame(self, bench: Instruments, name: str, region: Region | None = None) -> Frame:
+        """Return a picture of a camera over the table, of a region of its sensor; taken again while it is black, and
+        where it got lost."""
+        for left in reversed(range(TRIES)):
+            try:
+                gray = grayed(await bench.cameras[name].grab())
+            except PicoError:
+                if not left:
+                    raise
+                continue
+            u, v, width, height = region or (0, 0, gray.shape[1], gray.shape[0])
+            u, v = max(0, u), max(0, v)
+            frame = Frame(gray[v : v + height, u : u + width], (u, v), name, self.links.now())
+            if not frame.black:
+                break
+        return frame
+
+    async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
+        found = await told(bench)
+        return sensed(
+            self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
+        )  # fmt: skip
+
+    def arms(self) -> dict[str, TwinArm]:
+        """Return the arms as calibration knows them."""
+        known = known_arms(self.root)
+        return {name: TwinArm(robot, known=known.get(name, NOMINAL)) for name, robot in self.setup.lab.robots.items()
+                if robot.model == "xarm7"}  # fmt: skip
+
+    async def peek(self, component: str, measurable: str) -> Measurement:
+        """Return what a measurement would give now, of which nothing is assured; raises PicoError."""
+        from pico.backends.attempt import Failed
+
+        try:
+            return await self._measured(component, measurable, None)
+        except Failed as exc:
+            raise PicoError(exc.diagnostic) from exc
+
+    async def _measured(self, component: str, measurable: str, busy: list[str] | None) -> Measurement:
+        bench = await self.links.instruments()
+        readers = Readers(self.setup, self.root, bench, self.look, self._clock())
+        seen = await self._felt(bench, recall_hands(self.root, self.bench))
+        return await readers.measured(component, measurable, seen, busy)
+
+    # moving
+
+    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+        """Get the arms ready: faults that may be cleared are, limits, load and collision detection are set and read
+        back. Raises PicoError."""
+        bench = await self.links.instruments()
+        await asyncio.gather(*(_ready(arm) for arm in bench.arms.values()))
+        loop = asyncio.get_running_loop()
+
+        def wait(work: Coroutine[Any, Any, T]) -> T:
+            return asyncio.run_coroutine_threadsafe(work, loop).result()
+
+        known = BySight(
+            self.setup, self.root, lambda taken: wait(self._felt(bench, taken)), lambda: wait(self._looked(bench)),
+            lambda camera, region: wait(self._frame(bench, camera, region)), bench=self.bench,
+        )  # fmt: skip
+        self._session = HardwareSession(
+            self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
+            pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.root, bench).image,
+            untried=self.links.untried(),
+        )  # fmt: skip
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute one operation and return when it has ended."""
+        assert self._session is not None  # only who has taken the device executes
+        result = await self._session.execute(operation, key, began)
+        if result.outcome == "done" and operation.kind.carries:
+            self._placed[operation.component] = placed_at(self.setup, operation, result)
+            remember(self.root, {**recall(self.root, self.bench), **self._placed}, self.bench)
+        return result
+
+    async def halt(self) -> None:
+        """Bring everything under way to its safe end."""
+        if self._session is not None:
+            await self._session.halt()
+
+    async def stop(self) -> None:
+        """Stop everything where it is; grippers hold what they hold."""
+        if self._session is not None:
+            await self._session.stop()
+
+    async def leave(self) -> None:
+        """Let others have the bench, once everything under way has ended."""
+        if self._session is not None:
+            await self._session.idle()
+            self._session = None
+
+    async def close(self) -> None:
+        """Let go of the links to the instruments."""
+        await self.links.close()
+
+    # what only a simulator has
+
+    def watch(self, look: Callable[[Snapshot], None] | None) -> None:
+        """Raise PicoError where a film is wanted."""
+        if look is not None:
+            raise PicoError(error("film", "only the simulated bench is filmed", hint="`--backend sim`"))
+
+    def kept(self) -> bool:
+        """Return True: the table is where it is."""
+        return True
+
+    def world(self, held: Held, require_kept: Callable[[], None]) -> World:
+        """Raise PicoError: hands change a real table."""
+        return _no_world()
+
+
+async def _ready(arm: Arm) -> None:
+    if (await arm.state()).fault:
+        await arm.recover()
+    else:
+        await arm.ready()
+
+
+def _no_world() -> NoReturn:
+    text = "the table of this bench is changed by hands, and not by commands"
+    raise PicoError(error("no-world", text, hint="`--backend sim` has a simulated one"))

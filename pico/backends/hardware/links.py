@@ -1,0 +1,122 @@
+"""The links to a bench's instruments: opened when they are first needed, and shared by all who have the bench in this
+process, for most instruments talk to one only."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Protocol
+
+from pico.backends.hardware.instruments import Instruments, wired
+from pico.backends.hardware.settings import Settings
+from pico.backends.instruments import emulated
+from pico.drivers.registry import Buses, driver
+from pico.model.setup import Setup
+from pico.model.wiring import DeviceEntry
+
+if TYPE_CHECKING:
+    from pico.emulators.registry import EmulatedBench
+
+
+class Emulated(Protocol):
+    """The world behind emulators: its clock goes at `pace` times the wall's."""
+
+    pace: float
+
+    def now(self) -> float:
+        """Return its clock [s]."""
+        ...
+
+    def store(self) -> None:
+        """Keep it as it is."""
+        ...
+
+
+BringUp = Callable[["Setup", Path, dict[str, DeviceEntry]], "tuple[Emulated, EmulatedBench]"]
+"""Starts emulators of all devices of a lab, and gives them with the world behind."""
+_open: dict[tuple[Path, str], Links] = {}
+
+
+class Links:
+    """The links of the bench of the lab in `root`, by its name; with `bring_up` they lead to emulators in this
+    process, brought up when they are first needed."""
+
+    def __init__(
+        self, setup: Setup, root: Path, bench: str, bring_up: BringUp | None = None, before: Links | None = None
+    ) -> None:  # fmt: skip
+        """`before`: whose links these replace."""
+        self._before, self._bring_up = before, bring_up
+        self.setup, self.root, self.bench = setup, root, bench
+        self.world: Emulated | None = None
+        self.emulators: EmulatedBench | None = None
+        self._buses = Buses()
+        self._instruments: Instruments | None = None
+        self._connecting = asyncio.Lock()
+
+    @property
+    def entries(self) -> dict[str, DeviceEntry]:
+        """The devices of the lab."""
+        return dict(self.setup.wiring.devices) if self.setup.wiring else {}
+
+    def now(self) -> float:
+        """Return the bench's clock [s]: of the wall, or of the emulated world."""
+        return self.world.now() if self.world is not None else time.time()
+
+    async def pause(self, seconds: float) -> None:
+        """Wait so long by the bench's clock."""
+        await asyncio.sleep(seconds / (self.world.pace if self.world is not None else 1.0))
+
+    def about(self) -> Instruments:
+        """Return the instruments of the lab's devices, none of them connected: what there is, without asking any."""
+        return wired(self.setup, self.entries, Buses(), Settings(self.root, self.bench))
+
+    def untried(self) -> frozenset[str]:
+        """Return the robots of a real bench whose driver was never tried on a device."""
+        if self._bring_up is not None:
+            return frozenset()
+        found = ((entry.of or name, driver(entry.driver)) for name, entry in self.entries.items())
+        return frozenset(of for of, about in found if about.kind == "arm" and about.maturity != "on device")
+
+    async def instruments(self) -> Instruments:
+        """Return the instruments, connected; raises PicoError for all that does not answer, or is another one."""
+        async with self._connecting:
+            if self._instruments is None:
+                if self._before is not None:
+                    await self._before.close()
+                found = wired(self.setup, self._reached(), self._buses, Settings(self.root, self.bench))
+                await found.connect()
+                self._instruments = found
+            return self._instruments
+
+    def _reached(self) -> dict[str, DeviceEntry]:
+        if self._bring_up is None:
+            return self.entries
+        if self.emulators is None:
+            self.world, self.emulators = self._bring_up(self.setup, self.root, emulated(self.entries))
+        return self.emulators.entries
+
+    async def close(self) -> None:
+        """Let go of every link, and end what emulates."""
+        if _open.get((self.root, self.bench)) is self:
+            del _open[self.root, self.bench]
+        found, self._instruments = self._instruments, None
+        if found is not None:
+            await asyncio.gather(*(one.close() for one in found.all.values()), return_exceptions=True)
+        await self._buses.close()
+        if self.emulators is not None:
+            self.emulators.close()
+        if self.world is not None:
+            self.world.store()
+        self.emulators = self.world = None
+
+
+def links(setup: Setup, root: Path, bench: str, bring_up: BringUp | None = None) -> Links:
+    """Return the links of a bench: those that are open in this process, where they lead to the same devices."""
+    key = (root.resolve(), bench)
+    known = _open.get(key)
+    if known is not None and known.setup.wiring == setup.wiring and known.setup.at_speed(1.0) == setup.at_speed(1.0):
+        return known
+    _open[key] = Links(setup, root.resolve(), bench, bring_up, known)
+    return _open[key]

@@ -1,0 +1,336 @@
+"""The bench while somebody has taken it: every operation in progress, and how all of them end when it is stopped."""
+
+from __future__ import annotations
+
+import asyncio
+import math
+from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from contextlib import suppress
+from dataclasses import asdict, replace
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from pico.backends import checks, ways
+from pico.backends.attempt import Failed
+from pico.backends.by_sight import BySight
+from pico.backends.device import Began
+from pico.backends.halting import sooner, way_out
+from pico.backends.hardware.failing import failed
+from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.walking import FIRST_SPEED, Way
+from pico.backends.measured import Reading
+from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.model.diff import value_distance
+from pico.model.observation import Observation, ObservedComponent, slot_at
+from pico.model.operation import Operation, OperationResult
+from pico.model.pose import Pose, angle_between
+from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.trace.event import Event, EventKind
+from pico.motion.types import Blocked, Motion, MovePath, Stage
+from pico.twin.arms import TwinArm
+
+if TYPE_CHECKING:
+    from pico.model.measurement import Measurement
+
+T = TypeVar("T")
+Measuring = Callable[[str, str, list[str]], Awaitable["Measurement"]]
+"""Measures a measurable of a component, with the operations that are under way beside it."""
+
+
+class HardwareSession:
+    """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
+    `now`: the bench's clock [s]; `untried`: robots whose driver was never tried on a device."""
+
+    def __init__(
+        self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
+        tell: Callable[[Event], None], now: Callable[[], float], pause: Callable[[float], Awaitable[None]],
+        measure: Measuring, image: Callable[[str], Awaitable[Reading]], untried: frozenset[str] = frozenset(),
+    ) -> None:  # fmt: skip
+        self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
+        self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
+        self._untried, self._moved = untried, set[str]()
+        self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
+        self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
+        self._ways: dict[str, Way] = {}
+        self._halting = self._stopped = False
+        self._told = 0
+
+    async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        """Execute an operation; cancelling the wait does not cancel the motion.
+
+        Raises PicoError (exit code INTERRUPTED) where it was stopped before it began.
+        """
+        if self._stopped:
+            raise PicoError(checks.STOPPED, ExitCode.INTERRUPTED)
+        task = self._under_way[key] = asyncio.create_task(self._attempt(operation, key, began))
+        task.add_done_callback(lambda _: self._under_way.pop(key, None))
+        return await asyncio.shield(task)
+
+    async def _attempt(self, operation: Operation, key: str, began: Began) -> OperationResult:
+        before, begun = await self._look(operation.component), self._now()
+        began(before)
+        self._tell(
+            "operation_started", operation, key, {"primitive": operation.primitive, "seconds": operation.seconds}
+        )
+        data: Mapping[str, Any] = {}
+        failure: Failed | None = None
+        try:
+            self._require_running()
+            data = await self._act(operation, key)
+        except Failed as exc:
+            failure = Failed(checks.STOPPED) if self._stopped else exc
+        except PicoError as exc:
+            failure = Failed(checks.STOPPED) if self._stopped else failed(operation, exc)
+        return OperationResult(
+            key=key, outcome=failure.outcome if failure else "done", error=failure.diagnostic if failure else None,
+            before=before, after=await self._look(operation.component), seconds=self._now() - begun, ended=self._now(),
+            data=data,
+        )  # fmt: skip
+
+    async def idle(self) -> None:
+        """Wait until nothing is under way."""
+        while self._under_way:
+            await asyncio.wait(list(self._under_way.values()))
+
+    async def halt(self) -> None:
+        """Bring everything under way to its safe end: a part in a hand goes to its goal or back, whichever is sooner;
+        an arm that has not gripped yet leaves its part and parks."""
+        self._halting = True
+        for robot, way in list(self._ways.items()):
+            if way.stage.segment in ("approach", "descend") and not way.carries:
+                with suppress(PicoError):  # what it comes to then is told by who follows
+                    await self._bench.arms[robot].halt()
+        await self.idle()
+
+    async def stop(self) -> None:
+        """Stop everything under way: arms come to rest, hands hold what they hold, shutters close. Nothing moves
+        again until the bench is taken anew."""
+        self._halting = self._stopped = True
+        await self._bench.stop()
+        await self.idle()
+        for address, one in self._bench.tunables.items():
+            name, _, tunable = address.partition(".")
+            kind = self._setup.type_of(name).tunables.get(tunable)
+            if tunable == "shutter" and kind and "closed" in kind.choices:
+                with suppress(PicoError):  # it is read back by whoever looks next
+                    await one.set("closed")
+
+    # what is known
+
+    async def _look(self, component: str) -> ObservedComponent | None:
+        with suppress(Failed, PicoError):
+            return (await self._seen()).components.get(component)
+        return None
+
+    async def _seen(self) -> Observation:
+        return await self._asked(self._known.seen)
+
+    async def _asked(self, ask: Callable[..., T], *args: Any) -> T:
+        """Ask what is known, in a thread: who stops the bench is heard meanwhile."""
+        async with self._looking:
+            return await asyncio.to_thread(ask, *args)
+
+    # doing
+
+    def _act(self, operation: Operation, key: str) -> Coroutine[Any, Any, Mapping[str, Any]]:
+        own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
+               "measure": self._measure, "auto_range": self._auto_range}  # fmt: skip
+        return own.get(operation.primitive, self._refused)(operation, key)
+
+    async def _refused(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        text = f"the bench cannot {operation.primitive} {operation.component}"
+        raise Failed(error("capability", text, address=operation.component))
+
+    async def _measure(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        busy = sorted(other.split("/")[1] for other in self._under_way if other != key)
+        found = await self._measured(operation.component, str(operation.arguments.get("measurable")), busy)
+        return {"measurement": as_json(found)}
+
+    async def _auto_range(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        """Take frames, and expose each as the one before tells, until one is neither saturated nor dark."""
+        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
+        driven = self._bench.tunables.get(f"{name}.{tunable}")
+        if driven is None or name not in self._bench.sensors:
+            raise Failed(error("no-device", f"no device of this bench takes pictures with {name}", address=name))
+        frames, limits = list[Taken](), kind.range or (0.0, math.inf)
+        while len(frames) < MOST:
+            self._require_running()
+            exposure = float((await driven.read()).value or limits[0])
+            found = await self._image(name)
+            assert found.array is not None  # it is a picture
+            black, full = (float(found.settings[k] or 0.0) for k in ("black_level", "full_scale"))
+            frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
+            self._tell("operation_progress", operation, key, {"fraction": len(frames) / MOST, "phase": "exposing"})
+            wanted = next_exposure(frames[-1], limits)
+            if wanted is None:
+                break
+            await driven.set(wanted)
+        if (why := in_vain(name, frames)) is not None:
+            if why.code == "dark":  # nothing was found out: as it was
+                await driven.set(frames[0].exposure)
+            raise Failed(why)
+        return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
+
+    async def _move(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        """Pick and place on the table as it is now, and again where the part then does not stand as it should."""
+        name = operation.component
+        planned, goal, slot = checks.places(operation)
+        for left in reversed(range(1 + self._known.corrections)):
+            await self._carried(operation, key, planned)
+            part = await self._asked(self._known.confirm, name, goal)
+            if part.how == "placed":  # the arm itself hides it
+                await self._withdraw(operation)
+                part = await self._asked(self._known.confirm, name, goal)
+            if part.presence != "seen" or part.pose is None:
+                break
+            wrong = checks.misplaced(self._setup, name, part.pose, goal, slot)
+            if wrong is None:
+                return {"error_mm": part.pose.distance(goal), "error_deg": abs(angle_between(goal.yaw, part.pose.yaw))}
+            if not left:
+                raise Failed(wrong)
+            planned = part.pose
+            operation = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(planned)}})
+        raise checks.not_standing(name, part.presence)
+
+    async def _carried(self, operation: Operation, key: str, planned: Pose) -> None:
+        """Pick and place once: looked at just before, on a path found anew from where arm and component are."""
+        name, goal = operation.component, checks.places(operation)[1]
+        if not checks.in_hand(operation):
+            await self._asked(self._known.survey, name)
+        seen = await self._seen()
+        find = ways.carrying
+        start, path = await asyncio.to_thread(find, self._setup, self._motion, seen, operation, planned, goal)
+        if isinstance(path, Blocked):
+            raise checks.blocked(name, path)
+        checks.require_dark(self._setup, seen, operation)
+        await self._asked(self._known.takes, name, path)
+        try:
+            await self._walked(operation, key, path)
+        except _Back as way:
+            await self._walked(operation, key, way.path)
+            raise Failed(checks.put_back(name, slot_at(self._setup, start) or str(start))) from way
+        except Failed as exc:
+            if self._stopped or exc.diagnostic.code not in (*checks.LOST, "put-back"):
+                raise
+            await self._withdraw(operation)
+            if exc.diagnostic.code == "put-back":
+                raise
+            part = await self._asked(self._known.confirm, name, start)
+            raise Failed(checks.found_again(exc.diagnostic, name, part), exc.outcome) from exc
+
+    async def _park(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        robot = operation.robot or operation.component
+        if robot not in self._bench.arms:
+            raise Failed(error("bad-plan", f"the bench has no robot {robot}"))
+        seen = await self._seen()
+        checks.require_empty(seen, robot)
+        path = await asyncio.to_thread(ways.parking, self._setup, self._motion, seen, robot)
+        if isinstance(path, Blocked):
+            raise checks.blocked(robot, path)
+        await self._walked(operation, key, path)
+        return {}
+
+    async def _walked(self, operation: Operation, key: str, path: MovePath) -> None:
+        """Have an arm go along a path, with what it shares kept free; ends sooner where it is halted."""
+        robot = path.robot
+        self._require_one_step(robot)
+
+        async def asked(stage: Stage) -> None:
+            self._require_running()
+            data = {"phase": stage.segment, "fraction": path.gone(stage) / path.seconds if path.seconds else 1.0}
+            self._tell("operation_progress", operation, key, data)
+            if self._halting:
+                await self._leave(operation, path, stage)
+
+        way = self._way(operation, path, asked)
+        with self._zones.held(operation, path):
+            self._ways[robot] = way
+            try:
+                await way.walk()
+            except Failed as exc:
+                if self._stopped or not self._halting or way.stage.segment not in ("approach", "descend"):
+                    raise
+                raise Failed(checks.left(operation.component)) from exc
+            finally:
+                del self._ways[robot]
+
+    def _way(self, operation: Operation, path: MovePath, asked: Callable[[Stage], Awaitable[None]]) -> Way:
+        robot = path.robot
+        slow = max(1.0, self._setup.lab.robots[robot].fastest / FIRST_SPEED) if robot in self._untried else 1.0
+        arm, gripper = self._bench.arms[robot], self._bench.grippers.get(robot)
+        return Way(self._setup, operation, path, arm, gripper, self._arms[robot], asked, slow)
+
+    async def _leave(self, operation: Operation, path: MovePath, stage: Stage) -> None:
+        """Let a way that is halted go on, or end it before a leg: raises Failed where the part is left where it stands,
+        _Back where it is brought back sooner than to its goal."""
+        found = way_out(path, stage)
+        if found == "leaves_it":
+            raise Failed(checks.left(operation.component))
+        if found == "may_turn_back":
+            start, seen = checks.places(operation)[0], await self._seen()
+            back = await asyncio.to_thread(ways.back, self._setup, self._motion, seen, operation, start)
+            if back is not None and sooner(path, stage, back):
+                raise _Back(back)
+
+    def _require_one_step(self, robot: str) -> None:
+        """Raise Failed for a second motion of an arm whose driver was never tried on a device, in one go."""
+        if robot in self._untried and robot in self._moved:
+            text = f"the driver of {robot} was never tried on a device: it makes one motion at a time, at 50 mm/s"
+            hint = "a hand on the stop; then run the next one. `pico devices` says how far each driver was tried"
+            raise Failed(error("first-motion", text, hint=hint, address=robot))
+        self._moved.add(robot)
+
+    async def _withdraw(self, operation: Operation) -> None:
+        """Bring an arm with an empty hand to its park pose, where there is a way; who looks next sees where it is."""
+        with suppress(Failed):
+            seen = await self._seen()
+            path = await asyncio.to_thread(ways.parking, self._setup, self._motion, seen, operation.robot or "")
+            if not isinstance(path, Blocked):
+                await self._way(operation, path, self._unless_stopped).walk()
+
+    async def _unless_stopped(self, stage: Stage) -> None:
+        self._require_running()
+
+    def _require_running(self) -> None:
+        if self._stopped:
+            raise Failed(checks.STOPPED)
+
+    async def _set(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        """Drive a tunable to a value, or its axis to its home, and read it back."""
+        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
+        checks.standing_pose(await self._seen(), name)
+        address = f"{name}.{tunable}"
+        driven = self._bench.tunables.get(address)
+        if driven is None:
+            raise Failed(error("no-device", f"no device of this bench sets {address}", address=address))
+        if operation.primitive == "home":
+            goal = value = await driven.home()  # the device's zero, whatever the lab calls that
+        else:
+            goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
+            if kind.axis and kind.axis.kind == "homed" and (await driven.read()).status == "unknown":
+                await driven.home()
+            value = await driven.set(goal)
+        if value_distance(kind, value, goal) > max(kind.tolerance, 1e-9):
+            text = (
+                f"{operation.id}, {operation.primitive} of {address}, failed: it reads {value}, not {goal} {kind.unit}"
+            )
+            raise Failed(error("not-reached", text.rstrip(), hint="plan again", address=address))
+        await self._pause(kind.settle / 1000)
+        return {"value": value}
+
+    def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
+        self._told += 1
+        event = Event(
+            run=key.split("/", maxsplit=1)[0], seq=self._told, kind=kind, time=self._now(), operation=operation.id,
+            component=operation.component, data=data,
+        )  # fmt: skip
+        self._tell_all(event)
+
+
+class _Back(Exception):
+    """A part is brought back along `path`, for that is nearer than its goal."""
+
+    def __init__(self, path: MovePath) -> None:
+        self.path = path
+        super().__init__()

@@ -1,0 +1,34 @@
+"""What devices were told that they keep nowhere themselves, such as the exposure of a camera: `settings.json` in the
+bench's folder."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from pico.attachment import bench_folder
+from pico.disk import write_whole
+from pico.model.quantities import Value
+
+
+class Settings:
+    """Values by address, as they were told last; kept in the folder of the `bench` of the lab in `root`."""
+
+    def __init__(self, root: Path, bench: str, name: str = "settings.json") -> None:
+        self._path = bench_folder(root) / bench / name
+
+    def get(self, address: str, default: Value) -> Value:
+        """Return what was told last, `default` where nothing was, or that can't be read."""
+        return self._read().get(address, default)
+
+    def put(self, address: str, value: Value) -> None:
+        """Keep what was told; raises PicoError where that can't be written."""
+        data = json.dumps({**self._read(), address: value}, sort_keys=True).encode()
+        write_whole(self._path, data, what="the settings of the bench can't be kept", folders=True)
+
+    def _read(self) -> dict[str, Value]:
+        try:
+            found = json.loads(self._path.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return {}
+        return found if isinstance(found, dict) else {}

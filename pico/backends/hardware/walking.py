@@ -1,0 +1,105 @@
+"""An arm on its way along a path: leg by leg, its hand opened and closed where the path says so."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from typing import TYPE_CHECKING
+
+from pico.backends import checks
+from pico.backends.attempt import Failed
+from pico.backends.hardware.failing import failed
+from pico.diagnostics import PicoError, error
+from pico.drivers.protocols import Arm, Gripper
+from pico.model.operation import Operation
+from pico.model.setup import Setup
+from pico.motion.types import MovePath, Segment, Stage
+from pico.twin.arms import TwinArm
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+SQUEEZE = 4.0
+"""By how much the fingers are to come closer than the width of a part [mm], so that they press on it."""
+FIRST_SPEED = 50.0
+"""The greatest speed of the tool while a driver was never tried on a device [mm/s]."""
+
+
+class Way:
+    """The way of one arm. `asked` is asked before each leg, and ends the way there by what it raises."""
+
+    def __init__(
+        self, setup: Setup, operation: Operation, path: MovePath, arm: Arm, gripper: Gripper | None, built: TwinArm,
+        asked: Callable[[Stage], Awaitable[None]], slow: float = 1.0,
+    ) -> None:  # fmt: skip
+        """`built`: as calibration knows the arm. `slow`: so many times longer than planned it takes."""
+        self._setup, self._operation, self._path = setup, operation, path
+        self._arm, self._gripper, self._built, self._asked, self._slow = arm, gripper, built, asked, slow
+        self.stage = Stage(path.segments[0].name)
+        self.carries = not any(segment.name == "grip" for segment in path.segments) and path.component is not None
+
+    async def walk(self) -> None:
+        """Go it to its end; raises Failed, naming component, operation and leg."""
+        for segment in self._path.segments:
+            self.stage = Stage(segment.name)
+            await self._asked(self.stage)
+            try:
+                await self._leg(segment)
+            except PicoError as exc:
+                raise failed(self._operation, exc, segment.name) from exc
+
+    async def _leg(self, segment: Segment) -> None:
+        if segment.name == "grip":
+            await self._grip()
+        elif segment.name == "release":
+            await self._open(segment.opening)
+            self.carries = False
+        else:
+            if segment.name in ("approach", "descend"):
+                await self._open(segment.opening)
+            times, joints = self._told(segment)
+            if len(times) > 1:
+                doing = f"{self._operation.id}: {self._operation.primitive} {self._operation.component}"
+                await self._arm.follow(times, joints, doing=doing)
+            if self.carries:
+                await self._require_held()
+
+    def _told(self, segment: Segment) -> tuple[Array, Array]:
+        """The leg as the motors are told: times [s], and joints [rad] put right by what calibration knows."""
+        import numpy as np
+
+        return np.array(segment.times) * self._slow, self._built.told(np.array(segment.joints))
+
+    async def _open(self, width: float) -> None:
+        if self._gripper is not None:
+            found = await self._gripper.move_to(width)
+            if found.holds or found.width < width - SQUEEZE:
+                text = f"the fingers of {self._path.robot} open to {found.width:.1f} mm only, not to {width:.1f} mm"
+                raise PicoError(error("gripper", text, address=self._path.robot))
+
+    async def _grip(self) -> None:
+        """Close on the part; raises Failed where nothing of its width is between the fingers."""
+        self.carries = True
+        grasp = self._setup.type_of(self._operation.component).geometry.grasp
+        if self._gripper is None or grasp is None:
+            return
+        found = await self._gripper.move_to(max(0.0, grasp.width - SQUEEZE))
+        if not grasp.fits(found.width) or found.holds is False:
+            self.carries = False
+            robot, name = self._path.robot, self._operation.component
+            text = (
+                f"{robot} missed {name}: its fingers closed to {found.width:.1f} mm, and the part is {grasp.width:g} mm"
+            )
+            raise Failed(error("missed-grasp", text, address=name))
+
+    async def _require_held(self) -> None:
+        """Raise Failed where the part is between the fingers no more."""
+        grasp = self._setup.type_of(self._operation.component).geometry.grasp
+        if self._gripper is None or grasp is None:
+            return
+        found = await self._gripper.grip()
+        if not grasp.fits(found.width):  # whether it presses on something a hand forgets that had no power
+            self.carries = False
+            raise Failed(checks.dropped(self._path.robot, self._operation.component))

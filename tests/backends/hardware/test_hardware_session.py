@@ -1,0 +1,320 @@
+"""A bench of stand-ins for instruments: what is moved, in which order, and what is said where one of them fails."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from emulated_lab import wired_lab
+
+from pico.backends.by_sight import BySight
+from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.session import HardwareSession
+from pico.backends.hardware.settings import Settings
+from pico.backends.hardware.tunables import Motorized, Shut
+from pico.backends.last_seen import Taken
+from pico.diagnostics import PicoError, error
+from pico.drivers.protocols import ArmState, Grip
+from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
+from pico.model.operation import Operation, OperationResult, Reason
+from pico.model.pose import Pose
+from pico.model.record import as_json
+from pico.model.setup import Setup
+from pico.model.wiring import Wired
+from pico.motion.arms import ArmMotion
+from pico.motion.kinematics import tool_of
+from pico.twin.arms import TwinArm
+
+SLOT, GOAL = "storage/a3", Pose(395, 420, 0)
+ASKED = Reason(kind="asked")
+
+
+class Bench:
+    """Everything that is told to instruments, in order; and the table as cameras would see it."""
+
+    def __init__(self, setup: Setup) -> None:
+        self.setup, self.said = setup, list[str]()
+        self.joints = setup.lab.robots["arm1"].park_joints
+        self.width, self.holding = 84.0, False
+        self.at = setup.lab.slots[SLOT].pose
+        self.fails: dict[int, str] = {}
+        """By the number of a leg, what the arm says there."""
+        self.legs, self.stopped, self.halted = 0, False, False
+        self.misses = False
+        self.under_way = asyncio.Event()
+        self.slow = False
+
+    # the arm
+
+    async def follow(self, times: np.ndarray, joints: np.ndarray, *, doing: str = "") -> ArmState:
+        self.legs += 1
+        self.said.append(f"follow {doing}")
+        self.under_way.set()
+        if self.legs in self.fails:
+            raise PicoError(error("arm-fault", self.fails[self.legs], address="arm1"))
+        for _ in range(100 if self.slow else 1):
+            await asyncio.sleep(0.001)
+            if self.stopped or self.halted:
+                self.halted = False
+                raise PicoError(error("device-stopped", "arm1 was stopped", address="arm1"))
+        self.joints = tuple(float(q) for q in joints[-1])
+        self.seconds = float(times[-1])
+        return await self.state()
+
+    async def state(self) -> ArmState:
+        return ArmState(joints=self.joints, age=0.0, moving=False, enabled=True)
+
+    async def halt(self) -> None:
+        self.said.append("halt")
+        self.halted = True
+
+    async def stop(self) -> None:
+        self.said.append("stop")
+        self.stopped = True
+
+    # the gripper
+
+    async def move_to(self, width: float, *, force: float | None = None) -> Grip:
+        self.said.append(f"fingers {width:g}")
+        grasp = self.setup.type_of("lx_125").geometry.grasp
+        assert grasp is not None
+        tool = tool_of(self.setup.lab.robots["arm1"], self.joints)
+        if width < grasp.width and tool.distance(self.at) < 1 and not self.misses:
+            self.holding = True
+        elif width > grasp.width and self.holding:
+            self.holding, self.at = False, tool
+        self.width = max(width, grasp.width) if self.holding else width
+        return await self.grip()
+
+    async def grip(self) -> Grip:
+        return Grip(width=self.width, holds=self.holding)
+
+    # the cameras
+
+    def seen(self, taken: Mapping[str, Taken]) -> Observation:
+        parts = {"lx_125": ObservedComponent(pose=self.at, how="stereo"),
+                 "laser": ObservedComponent(values={"shutter": ObservedValue(value="closed")}),
+                 "p1": ObservedComponent(pose=Pose(110, 220, 0), how="stereo")}  # fmt: skip
+        robot = ObservedRobot(joints=self.joints, holding="lx_125" if self.holding else None, opening=self.width)
+        if self.holding:
+            pose = tool_of(self.setup.lab.robots["arm1"], self.joints)
+            parts["lx_125"] = ObservedComponent(presence="held", pose=pose, how="gripper")
+        return Observation(backend="hardware", components=parts, robots={"arm1": robot})
+
+
+class Known(BySight):
+    """What is known of the bench, without any pictures."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+
+    def seen(self) -> Observation:
+        return self.bench.seen({})
+
+    def survey(self, component: str) -> Pose | None:
+        return self.seen().components[component].pose
+
+    def takes(self, component: str, path: Any) -> None:
+        """Nothing is kept."""
+
+    def confirm(self, component: str, near: Pose) -> ObservedComponent:
+        return self.seen().components[component]
+
+
+class Axis:
+    """An axis that may come to rest elsewhere."""
+
+    def __init__(self, at: float | None = 0.0, off: float = 0.0) -> None:
+        self.at, self.off, self.told = at, off, list[str]()
+
+    async def position(self) -> float | None:
+        return self.at
+
+    async def move_to(self, position: float) -> float:
+        self.told.append(f"to {position:g}")
+        self.at = position + self.off
+        return self.at
+
+    async def home(self) -> float:
+        self.told.append("home")
+        self.at = 0.0
+        return self.at
+
+    async def stop(self) -> None:
+        self.told.append("stop")
+
+
+class Shutter:
+    def __init__(self) -> None:
+        self.told = list[bool]()
+
+    async def open(self, wanted: bool) -> bool:
+        self.told.append(wanted)
+        return wanted
+
+    async def is_open(self) -> bool | None:
+        return False
+
+
+@pytest.fixture
+def setup(tmp_path: Path) -> Setup:
+    return wired_lab(tmp_path)
+
+
+def session(bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset()) -> HardwareSession:
+    instruments = Instruments()
+    instruments.arms["arm1"] = instruments.grippers["arm1"] = bench  # type: ignore[assignment]
+    shutter = bench.shutter = Shutter()  # type: ignore[attr-defined]
+    instruments.tunables["laser.shutter"] = Shut(shutter)  # type: ignore[arg-type]
+    if axis is not None:
+        instruments.tunables["p1.angle"] = Motorized(axis, Wired(property="angle"), "deg")  # type: ignore[arg-type]
+
+    async def none(*_: Any) -> Any:
+        return None
+
+    arms = {"arm1": TwinArm(bench.setup.lab.robots["arm1"])}
+    return HardwareSession(
+        bench.setup, instruments, Known(bench), motion=ArmMotion(bench.setup), arms=arms, tell=lambda event: None,
+        now=lambda: 0.0, pause=none, measure=none, image=none, untried=untried,
+    )  # fmt: skip
+
+
+def move() -> Operation:
+    start = {"pose": as_json(Pose(290, 310, 0)), "slot": SLOT}
+    arguments = {"from": start, "to": {"pose": as_json(GOAL)}, "grasp_yaw": 0.0}
+    return Operation(id="op3", primitive="move", component="lx_125", robot="arm1", arguments=arguments, reason=ASKED)
+
+
+def setting(value: float, primitive: str = "set") -> Operation:
+    arguments = {"tunable": "angle", "to": value}
+    return Operation(id="op1", primitive=primitive, component="p1", arguments=arguments, reason=ASKED)
+
+
+def executed(one: HardwareSession, operation: Operation) -> OperationResult:
+    return asyncio.run(one.execute(operation, f"run/{operation.id}/1", lambda before: None))
+
+
+def test_a_part_is_picked_carried_and_put_down_and_seen_where_it_should_be(setup: Setup) -> None:
+    bench = Bench(setup)
+    result = executed(session(bench), move())
+    assert (result.outcome, result.error) == ("done", None)
+    assert bench.at.distance(GOAL) < 1e-6 and result.data["error_mm"] < 1e-6
+    words = [said.partition(" ")[0] for said in bench.said]
+    grip = next(i for i, said in enumerate(bench.said) if said == "fingers 30")
+    assert words[grip - 1] == "follow" and words[grip + 1 : grip + 4] == ["follow"] * 3
+    assert bench.said.count("follow op3: move lx_125") == bench.legs == 6
+
+
+def test_fingers_that_close_on_nothing_have_missed_and_the_arm_withdraws(setup: Setup) -> None:
+    bench = Bench(setup)
+    bench.misses = True
+    result = executed(session(bench), move())
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.code == "missed-grasp" and "arm1 missed lx_125" in result.error.summary
+    assert "it stands at" in result.error.summary
+    assert setup.lab.robots["arm1"].is_parked(bench.joints)
+
+
+def test_a_part_that_is_lost_on_the_way_is_told_as_dropped(setup: Setup) -> None:
+    bench = Bench(setup)
+
+    async def grip() -> Grip:
+        if bench.legs >= 4:  # in the transit
+            bench.holding, bench.width = False, 10.0
+        return Grip(width=bench.width, holds=bench.holding)
+
+    bench.grip = grip  # type: ignore[method-assign]
+    result = executed(session(bench), move())
+    assert result.error is not None and result.error.code == "dropped"
+
+
+@pytest.mark.parametrize(("leg", "name"), [(1, "approach"), (2, "descend"), (3, "lift"), (4, "transit"), (5, "lower")])
+def test_a_fault_of_the_arm_is_told_with_component_operation_and_leg(setup: Setup, leg: int, name: str) -> None:
+    bench = Bench(setup)
+    bench.fails[leg] = "arm1 reports C31, a collision"
+    result = executed(session(bench), move())
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.summary == f"op3, move of lx_125, failed ({name}): arm1 reports C31, a collision"
+    assert (result.error.code, result.error.address) == ("arm-fault", "lx_125")
+    assert bench.legs == leg, "nothing moves after a fault"
+
+
+def test_nothing_moves_after_a_stop_and_the_shutter_closes(setup: Setup) -> None:
+    bench = Bench(setup)
+    bench.slow = True
+
+    async def stopped() -> tuple[OperationResult, int]:
+        one = session(bench)
+        going = asyncio.create_task(one.execute(move(), "run/op3/1", lambda before: None))
+        await bench.under_way.wait()
+        await one.stop()
+        legs = bench.legs
+        with pytest.raises(PicoError, match="stopped"):
+            await one.execute(replace(move(), id="op4"), "run/op4/1", lambda before: None)
+        return await going, legs
+
+    result, legs = asyncio.run(stopped())
+    assert result.error is not None and result.error.code == "stopped"
+    assert bench.legs == legs == 1 and "stop" in bench.said
+    assert not [said for said in bench.said[bench.said.index("stop") :] if said.startswith(("follow", "fingers"))]
+    assert bench.shutter.told == [False]  # type: ignore[attr-defined]
+
+
+def test_an_arm_that_is_halted_before_it_gripped_leaves_the_part_and_parks(setup: Setup) -> None:
+    bench = Bench(setup)
+    bench.slow = True
+
+    async def halted() -> OperationResult:
+        one = session(bench)
+        going = asyncio.create_task(one.execute(move(), "run/op3/1", lambda before: None))
+        await bench.under_way.wait()
+        await one.halt()
+        return await going
+
+    result = asyncio.run(halted())
+    assert result.error is not None and result.error.code == "put-back"
+    assert "left where it stands" in result.error.summary
+    assert setup.lab.robots["arm1"].is_parked(bench.joints) and not bench.holding
+
+
+def test_an_arm_whose_driver_was_never_tried_makes_one_slow_motion_at_a_time(setup: Setup) -> None:
+    quick, bench = Bench(setup), Bench(setup)
+    executed(session(quick), move())
+    one = session(bench, untried=frozenset({"arm1"}))
+
+    async def twice() -> tuple[OperationResult, OperationResult]:
+        first = await one.execute(move(), "run/op3/1", lambda before: None)
+        park = Operation(id="op4", primitive="park", component="arm1", robot="arm1", reason=ASKED)
+        return first, await one.execute(park, "run/op4/1", lambda before: None)
+
+    first, second = asyncio.run(twice())
+    assert first.outcome == "done" and bench.seconds == pytest.approx(20 * quick.seconds)
+    assert second.error is not None and second.error.code == "first-motion"
+
+
+def test_an_axis_is_homed_first_where_nobody_knows_where_it_is_and_read_back(setup: Setup) -> None:
+    axis = Axis(None)
+    result = executed(session(Bench(setup), axis), setting(45.0))
+    assert (result.outcome, result.data, axis.told) == ("done", {"value": 45.0}, ["home", "to 45"])
+
+
+def test_an_axis_that_reads_elsewhere_has_failed_by_component_and_operation(setup: Setup) -> None:
+    result = executed(session(Bench(setup), Axis(off=3.0)), setting(45.0))
+    assert result.error is not None
+    assert result.error.summary == "op1, set of p1.angle, failed: it reads 48.0, not 45.0 deg"
+    refused = executed(session(Bench(setup), Axis()), setting(500.0))
+    assert refused.error is not None and refused.error.code == "range"
+    unwired = executed(session(Bench(setup)), setting(45.0))
+    assert unwired.error is not None and unwired.error.code == "no-device"
+
+
+def test_what_cameras_were_told_is_kept_where_the_bench_is(tmp_path: Path) -> None:
+    assert Settings(tmp_path, "hardware").get("cam.exposure", 0.02) == 0.02
+    Settings(tmp_path, "hardware").put("cam.exposure", 5.0)
+    assert Settings(tmp_path, "hardware").get("cam.exposure", 0.02) == 5.0
+    assert Settings(tmp_path, "emulated").get("cam.exposure", 0.02) == 0.02

@@ -1,0 +1,115 @@
+"""The whole bench over wires: an xArm over TCP, mounts over a serial line, cameras and switches over TCP, each driver
+with an emulator at the other end and a simulated world behind. Commands as they are typed."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commanding import Pico
+
+from pico.backends.emulated.bench import PACE
+from pico.model.pose import Pose
+
+DEVICES = Path(__file__).resolve().parent.parent / "backends" / "hardware" / "devices.yaml"
+pytestmark = pytest.mark.slow
+pytest.importorskip("xarm")
+pytest.importorskip("ElliptecBus")
+EMULATED = ("--backend", "hardware", "--emulate")
+
+
+@pytest.fixture
+def wired(shel: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """The example with its instruments; time goes ten times as fast."""
+    shutil.copy(DEVICES, shel)
+    monkeypatch.setenv(PACE, "10")
+    return shel
+
+
+def operations(answer: Any) -> list[tuple[Any, ...]]:
+    return [
+        (o["id"], o["primitive"], o["component"], o["arguments"].get("tunable"), o.get("after"))
+        for o in answer.data["operations"]
+    ]
+
+
+def world(root: Path) -> Any:
+    return json.loads((root / ".pico" / "emulated" / "world.json").read_text())
+
+
+def stands(root: Path, name: str) -> Pose:
+    return Pose(**world(root)["components"][name]["pose"])
+
+
+def applied(pico: Pico, *words: str) -> None:
+    answer = pico(*EMULATED, "apply", *words, "--auto-approve")
+    assert answer.code == 0, answer.out + answer.err
+
+
+def test_what_was_applied_is_there_and_nothing_is_left_to_do(wired: Path, pico: Pico) -> None:
+    applied(pico, "C2")
+    assert stands(wired, "p1").distance(Pose(290, 420, 0)) < 0.1
+    again = pico(*EMULATED, "plan", "C2", "--detailed-exitcode")
+    assert again.code == 0, again.out
+    assert not (wired / ".pico" / "sim").exists(), "the simulator's table is another"
+    assert "  emulated  " in pico("runs").out
+
+
+def test_a_restoration_is_the_one_that_the_simulator_makes(wired: Path, pico: Pico) -> None:
+    """E3-2 to E1-1: same plan, same operations, and the table is the commit's within tolerance."""
+    applied(pico, "E3-2")
+    assert pico("apply", "E3-2", "--auto-approve").code == 0
+    assert operations(pico(*EMULATED, "--json", "plan", "E1-1")) == operations(pico("--json", "plan", "E1-1"))
+    applied(pico, "E1-1")
+    for name, goal in (("lx_125", Pose(395, 420, 0)), ("p2", Pose(520, 420, 0)), ("p1", Pose(290, 420, 0))):
+        assert stands(wired, name).distance(goal) < 0.1, name
+    assert world(wired)["components"]["p1"]["values"]["angle"]["value"] == pytest.approx(90, abs=0.1)
+    assert pico(*EMULATED, "plan", "E1-1", "--detailed-exitcode").code == 0
+
+
+def test_what_a_kill_in_the_midst_of_a_move_left_is_found_and_finished(wired: Path, pico: Pico) -> None:
+    """The process dies with a part in the hand; who comes next finds it there, sets it down, and goes on."""
+    main = [sys.executable, "-c", "import sys; from pico_cli.main import main; sys.exit(main())"]
+    going = subprocess.Popen(
+        [*main, *EMULATED, "apply", "C2", "--auto-approve"], cwd=wired, stdout=subprocess.DEVNULL, env=os.environ
+    )
+    try:
+        ends = time.monotonic() + 120
+        while time.monotonic() < ends and going.poll() is None:
+            try:
+                if any(robot.get("holding") for robot in world(wired)["robots"].values()):
+                    break
+            except (OSError, ValueError):
+                pass
+            time.sleep(0.02)
+        assert going.poll() is None, "it was over before it was killed"
+        os.kill(going.pid, signal.SIGKILL)
+    finally:
+        going.kill()
+        going.wait()
+    assert world(wired)["robots"]["arm1"]["holding"] == "p1"
+    applied(pico, "C2")
+    assert stands(wired, "p1").distance(Pose(290, 420, 0)) < 0.1
+    assert world(wired)["robots"]["arm1"].get("holding") is None
+    assert pico(*EMULATED, "plan", "C2", "--detailed-exitcode").code == 0
+
+
+def test_somebody_at_the_table_keeps_the_arm_from_moving(wired: Path, pico: Pico) -> None:
+    applied(pico, "C1")
+    path = wired / ".pico" / "emulated" / "world.json"
+    path.write_text(json.dumps({**world(wired), "person": True}))
+    answer = pico(*EMULATED, "apply", "C2", "--auto-approve")
+    assert answer.code == 7 and "nobody_near_the_arm" in answer.out + answer.err
+
+
+def test_a_bench_without_instruments_says_what_is_missing(shel: Path, pico: Pico) -> None:
+    answer = pico(*EMULATED, "plan")
+    assert answer.code == 1 and "no driver for the arm arm1 (xarm7)" in answer.err
