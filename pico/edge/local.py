@@ -584,13 +584,19 @@ class LocalEdge:
             running.tell(event)
 
     async def _reported(self, job: Job, running: Running, wall: float) -> RunReport:
-        """Look at the bench after a run, write down how it stands, and return what became of the run."""
+        """Look at the bench after a run, write down how it stands, and return what became of the run.
+
+        Raises PicoError where nothing can be seen any more, with what went wrong before.
+        """
         from pico.edge.about import seen_after
-        from pico.execution.report import measured, run_report
+        from pico.execution.report import measured, run_report, told_by
 
         able = await self.describe()
         events = [e for e in running.log if e.kind != "operation_progress"]
-        seen = replace(await self.observe(), measurements=measured(job.plan, events))
+        try:
+            seen = replace(await self.observe(), measurements=measured(job.plan, events))
+        except PicoError as exc:
+            raise PicoError([*told_by(events), *exc.diagnostics], exc.exit_code) from exc
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
         report = replace(report, diagnostics=(*report.diagnostics, *self._kept.told(), *self._told()))

@@ -56,7 +56,7 @@ def run_report(
         aligning=_aligning(plan, events),
         read=tuple(_read(plan, events)) or None,
         diagnostics=(
-            *_diagnostics(events),
+            *told_by(events),
             *_left_set(setup, plan, events, seen),
             *_beyond_trim(setup, remaining, right),
         ),
@@ -199,7 +199,8 @@ def _left_set(setup: Setup, plan: Plan, events: Sequence[Event], seen: Observati
         yield warning("left-set", text, hint=f"{hint}, with all else that this run set")
 
 
-def _diagnostics(events: Sequence[Event]) -> Iterator[Diagnostic]:
+def told_by(events: Sequence[Event]) -> Iterator[Diagnostic]:
+    """Yield what went wrong with operations."""
     for event in events:
         if event.kind in ("operation_failed", "operation_unknown"):
             yield Diagnostic(**{**event.data["diagnostic"], "source": None})
