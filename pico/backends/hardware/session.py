@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import asyncio
-import math
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
-from dataclasses import asdict, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.backends import checks, ways
@@ -15,12 +14,12 @@ from pico.backends.by_sight import BySight
 from pico.backends.device import Began
 from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
+from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.setting import driven, ranged
 from pico.backends.hardware.walking import FIRST_SPEED, Way
 from pico.backends.measured import Reading
-from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
-from pico.diagnostics import ExitCode, PicoError, error
-from pico.model.diff import value_distance
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose, angle_between
@@ -54,6 +53,7 @@ class HardwareSession:
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
         self._halting = self._stopped = False
+        self._tripped: Diagnostic | None = None
         self._told = 0
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
@@ -77,16 +77,35 @@ class HardwareSession:
         failure: Failed | None = None
         try:
             self._require_running()
-            data = await self._act(operation, key)
+            data = await self._guarded(operation, key)
         except Failed as exc:
-            failure = Failed(checks.STOPPED) if self._stopped else exc
+            failure = self._ended() if self._stopped else exc
         except PicoError as exc:
-            failure = Failed(checks.STOPPED) if self._stopped else failed(operation, exc)
+            failure = self._ended() if self._stopped else failed(operation, exc)
         return OperationResult(
             key=key, outcome=failure.outcome if failure else "done", error=failure.diagnostic if failure else None,
             before=before, after=await self._look(operation.component), seconds=self._now() - begun, ended=self._now(),
             data=data,
         )  # fmt: skip
+
+    async def _guarded(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        """Do what an operation asks for while the safety inputs that concern it are safe; all stops where one is not
+        any more."""
+        inputs, kinds = self._bench.inputs, concerned(self._setup, operation)
+        if not any(entry.kind in kinds for entry, _ in inputs.values()):
+            return await self._act(operation, key)
+        await require_safe(inputs, kinds)
+        acting = asyncio.ensure_future(self._act(operation, key))
+        watching = asyncio.create_task(until_tripped(inputs, kinds))
+        try:
+            await asyncio.wait([acting, watching], return_when=asyncio.FIRST_COMPLETED)
+            if not acting.done() and watching.done():
+                self._tripped = watching.result()
+                await self._halt_all()
+                await self._shut()
+            return await acting
+        finally:
+            watching.cancel()
 
     async def idle(self) -> None:
         """Wait until nothing is under way."""
@@ -106,15 +125,22 @@ class HardwareSession:
     async def stop(self) -> None:
         """Stop everything under way: arms come to rest, hands hold what they hold, shutters close. Nothing moves
         again until the bench is taken anew."""
-        self._halting = self._stopped = True
-        await self._bench.stop()
+        await self._halt_all()
         await self.idle()
+        await self._shut()
+
+    async def _shut(self) -> None:
         for address, one in self._bench.tunables.items():
             name, _, tunable = address.partition(".")
             kind = self._setup.type_of(name).tunables.get(tunable)
             if tunable == "shutter" and kind and "closed" in kind.choices:
                 with suppress(PicoError):  # it is read back by whoever looks next
                     await one.set("closed")
+
+    async def _halt_all(self) -> None:
+        """Stop all that moves; what is under way fails."""
+        self._halting = self._stopped = True
+        await self._bench.stop()
 
     # what is known
 
@@ -148,29 +174,11 @@ class HardwareSession:
         return {"measurement": as_json(found)}
 
     async def _auto_range(self, operation: Operation, key: str) -> Mapping[str, Any]:
-        """Take frames, and expose each as the one before tells, until one is neither saturated nor dark."""
-        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
-        driven = self._bench.tunables.get(f"{name}.{tunable}")
-        if driven is None or name not in self._bench.sensors:
-            raise Failed(error("no-device", f"no device of this bench takes pictures with {name}", address=name))
-        frames, limits = list[Taken](), kind.range or (0.0, math.inf)
-        while len(frames) < MOST:
+        def told(data: Mapping[str, Any]) -> None:
             self._require_running()
-            exposure = float((await driven.read()).value or limits[0])
-            found = await self._image(name)
-            assert found.array is not None  # it is a picture
-            black, full = (float(found.settings[k] or 0.0) for k in ("black_level", "full_scale"))
-            frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
-            self._tell("operation_progress", operation, key, {"fraction": len(frames) / MOST, "phase": "exposing"})
-            wanted = next_exposure(frames[-1], limits)
-            if wanted is None:
-                break
-            await driven.set(wanted)
-        if (why := in_vain(name, frames)) is not None:
-            if why.code == "dark":  # nothing was found out: as it was
-                await driven.set(frames[0].exposure)
-            raise Failed(why)
-        return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
+            self._tell("operation_progress", operation, key, data)
+
+        return await ranged(self._setup, self._bench, operation, self._image, told)
 
     async def _move(self, operation: Operation, key: str) -> Mapping[str, Any]:
         """Pick and place on the table as it is now, and again where the part then does not stand as it should."""
@@ -294,30 +302,15 @@ class HardwareSession:
 
     def _require_running(self) -> None:
         if self._stopped:
-            raise Failed(checks.STOPPED)
+            raise self._ended()
+
+    def _ended(self) -> Failed:
+        """Why everything was stopped."""
+        return Failed(self._tripped or checks.STOPPED)
 
     async def _set(self, operation: Operation, key: str) -> Mapping[str, Any]:
-        """Drive a tunable to a value, or its axis to its home, and read it back."""
-        name, (tunable, kind) = operation.component, checks.setpoint(self._setup, operation)
-        checks.standing_pose(await self._seen(), name)
-        address = f"{name}.{tunable}"
-        driven = self._bench.tunables.get(address)
-        if driven is None:
-            raise Failed(error("no-device", f"no device of this bench sets {address}", address=address))
-        if operation.primitive == "home":
-            goal = value = await driven.home()  # the device's zero, whatever the lab calls that
-        else:
-            goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
-            if kind.axis and kind.axis.kind == "homed" and (await driven.read()).status == "unknown":
-                await driven.home()
-            value = await driven.set(goal)
-        if value_distance(kind, value, goal) > max(kind.tolerance, 1e-9):
-            text = (
-                f"{operation.id}, {operation.primitive} of {address}, failed: it reads {value}, not {goal} {kind.unit}"
-            )
-            raise Failed(error("not-reached", text.rstrip(), hint="plan again", address=address))
-        await self._pause(kind.settle / 1000)
-        return {"value": value}
+        checks.standing_pose(await self._seen(), operation.component)
+        return await driven(self._setup, self._bench, operation, self._pause)
 
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:
         self._told += 1

@@ -19,13 +19,13 @@ from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.tunables import Motorized, Shut
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
-from pico.drivers.protocols import ArmState, Grip
+from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
-from pico.model.wiring import Wired
+from pico.model.wiring import SafetyEntry, Wired
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
 from pico.twin.arms import TwinArm
@@ -166,8 +166,22 @@ def setup(tmp_path: Path) -> Setup:
     return wired_lab(tmp_path)
 
 
-def session(bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset()) -> HardwareSession:
+class Curtain:
+    """A curtain that somebody may come through, once so many legs were gone."""
+
+    def __init__(self, bench: Bench, *, safe: bool | None = True, age: float = 0.0, until: int = 99) -> None:
+        self.bench, self.safe, self.age, self.until = bench, safe, age, until
+
+    async def read(self) -> SafetyState:
+        return SafetyState(safe=self.safe and self.bench.legs < self.until, age=self.age)
+
+
+def session(
+    bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset(), curtain: Curtain | None = None
+) -> HardwareSession:
     instruments = Instruments()
+    if curtain is not None:
+        instruments.inputs["curtain"] = SafetyEntry(kind="curtain", device="box"), curtain  # type: ignore[assignment]
     instruments.arms["arm1"] = instruments.grippers["arm1"] = bench  # type: ignore[assignment]
     shutter = bench.shutter = Shutter()  # type: ignore[attr-defined]
     instruments.tunables["laser.shutter"] = Shut(shutter)  # type: ignore[arg-type]
@@ -280,6 +294,40 @@ def test_an_arm_that_is_halted_before_it_gripped_leaves_the_part_and_parks(setup
     assert result.error is not None and result.error.code == "put-back"
     assert "left where it stands" in result.error.summary
     assert setup.lab.robots["arm1"].is_parked(bench.joints) and not bench.holding
+
+
+@pytest.mark.parametrize(
+    ("safe", "age", "why"),
+    [(False, 0.0, "is not safe"), (None, 0.0, "is not known to be safe"), (True, 2.0, "was last heard 2.0 s ago")],
+)
+def test_no_arm_moves_while_a_curtain_is_not_known_to_be_safe(
+    setup: Setup, safe: bool | None, age: float, why: str
+) -> None:
+    bench = Bench(setup)
+    result = executed(session(bench, curtain=Curtain(bench, safe=safe, age=age)), move())
+    assert result.error is not None and result.error.code == "unsafe"
+    assert result.error.summary == f"curtain (curtain) {why}" and bench.legs == 0
+    axis = Axis()
+    set_ = executed(session(bench, axis, curtain=Curtain(bench, safe=safe, age=age)), setting(5.0))
+    assert set_.outcome == "done", "a mount harms nobody"
+
+
+def test_all_stops_and_is_shut_where_somebody_comes_through_the_curtain(setup: Setup) -> None:
+    bench = Bench(setup)
+    bench.slow = True
+    one = session(bench, curtain=Curtain(bench, until=3))
+
+    async def twice() -> tuple[OperationResult, OperationResult | str]:
+        first = await one.execute(move(), "run/op3/1", lambda before: None)
+        try:
+            return first, await one.execute(replace(move(), id="op4"), "run/op4/1", lambda before: None)
+        except PicoError as exc:
+            return first, str(exc)
+
+    first, second = asyncio.run(twice())
+    assert first.error is not None and first.error.summary == "curtain (curtain) is not safe"
+    assert bench.legs == 3 and bench.said[-1] == "stop" and "stopped" in str(second)
+    assert bench.holding and bench.shutter.told == [False]  # type: ignore[attr-defined]
 
 
 def test_an_arm_whose_driver_was_never_tried_makes_one_slow_motion_at_a_time(setup: Setup) -> None:
