@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from pico.backends.devices import EMULATED
 from pico.diagnostics import ExitCode
 
 from ..arguments import group
@@ -20,7 +21,6 @@ app = group(
 )
 
 Names = Annotated[list[str] | None, typer.Argument(metavar="DEVICE", help="Which ones; without any, all.")]
-Emulate = Annotated[bool, typer.Option("--emulate", help="Ask emulators in their place, over the same wires.")]
 
 
 @app.callback()
@@ -45,8 +45,8 @@ def list_(context: typer.Context) -> None:
 
 
 @app.command()
-def check(context: typer.Context, devices: Names = None, emulate: Emulate = False) -> int:
-    """Ask devices who they are and what they read. Nothing moves.
+def check(context: typer.Context, devices: Names = None) -> int:
+    """Ask devices who they are and what they read, with --emulate emulators in their place. Nothing moves.
 
     Exit code 1 where one does not answer, or another one does than the lab names.
 
@@ -54,26 +54,26 @@ def check(context: typer.Context, devices: Names = None, emulate: Emulate = Fals
       pico devices check
       pico devices check p1 --emulate
     """
-    return _asked(context, devices, emulate=emulate, whoever=False)
+    return _asked(context, devices, whoever=False)
 
 
 @app.command()
-def identify(context: typer.Context, devices: Names = None, emulate: Emulate = False) -> int:
+def identify(context: typer.Context, devices: Names = None) -> int:
     """Ask who answers at the addresses, whatever the lab says, and show what to write into `identity:`.
 
     Examples:
       pico devices identify p1
     """
-    return _asked(context, devices, emulate=emulate, whoever=True)
+    return _asked(context, devices, whoever=True)
 
 
-def _asked(context: typer.Context, devices: list[str] | None, *, emulate: bool, whoever: bool) -> int:
+def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) -> int:
     from pico.backends.instruments import asked, instruments
 
     session = Session.of(context)
     entries = instruments(session.folder, devices or ())
     with waiting("Asking the devices"):
-        rows = asked(entries, emulate=emulate, whoever=whoever)
+        rows = asked(entries, emulate=session.backend == EMULATED, whoever=whoever)
     session.show(view, rows, identify=whoever)
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)

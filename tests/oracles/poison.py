@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import Any
 from unittest.mock import patch
 
-from pico.backends.sim import known, sight
+from pico.backends.sim import known, session, sight
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.senses import sensed
 from pico.backends.sim.world import World
@@ -61,7 +61,7 @@ def poisoned() -> Iterator[None]:
         patch.object(PhysicsWorld, "carried", refuse),
         patch.object(known, "observe", refuse),
         patch.object(sight, "observe", refuse),
-        patch.object(known, "sensed", blindly),
+        patch.object(session, "sensed", blindly),
         patch.object(sight, "sensed", blindly),
     ):
         yield
