@@ -45,12 +45,15 @@ class Proof:
 
 def proof(refused: Refusal) -> Proof:
     """Return what proves a refusal, as far as that is proven within the limit of the search."""
-    ended = f"{PATH_ROUNDS} blocked paths" if refused.paths_ended else "configurations"
+    ended = "storage slots" if refused.table.more_slots else "configurations"
+    ended = f"{PATH_ROUNDS} blocked paths" if refused.paths_ended else ended
     return Proof(_certified(refused), _certified(refused.widest) if refused.widest else None, ended)
 
 
 def _certified(refused: Refusal) -> Certificate:
     found = certified(refused.table, refused.core or (() if refused.proven else stuck_of(refused)))
+    if refused.table.more_slots and (found.blocking is None or any(c.kind == "storage" for c in found.blocking)):
+        return Certificate(False)  # nobody looked at all the slots
     return replace(found, proven=found.proven or refused.proven)
 
 

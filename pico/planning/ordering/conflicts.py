@@ -34,6 +34,8 @@ from pico.planning.parts.spots import with_spots
 
 FEW, MANY_SLOTS, ENOUGH_SLOTS = 7, 60, 24
 """With few movers up to so many of the free storage slots are considered for each, with more so many."""
+EVERY_SLOT = 3000
+"""Where these do not suffice, so many slots are considered for all movers together."""
 
 Spot = tuple[int, int]
 """A mover and one of its places, by index."""
@@ -51,7 +53,7 @@ class Way:
 
 class Conflicts:
     """The tables of one planning problem. A mask is None where something that stays excludes it. `on_table`: parts may
-    be put down in the lab's staging regions, too."""
+    be put down in the lab's staging regions, too; `every_slot`: in any slot that is free, not only in the nearest."""
 
     def __init__(
         self,
@@ -60,6 +62,7 @@ class Conflicts:
         obstacles: Sequence[Obstacle],
         motion: Motion | None,
         on_table: bool,
+        every_slot: bool = False,
     ) -> None:
         self.setup, self.motion = setup, motion
         self.more_slots = False
@@ -67,7 +70,7 @@ class Conflicts:
         self.obstacles = {o.name: o for o in obstacles}
         self.static: Grid[str] = Grid.of({o.name: o.shape for o in obstacles})
         self._mouths: Grid[str] = Grid.of({name: capture_disc(slot) for name, slot in setup.lab.slots.items()})
-        movers = self._stored(movers)
+        movers = self._stored(movers, every_slot)
         movers = self.movers = with_spots(setup, movers, obstacles) if on_table else movers
         self.spots: list[Spot] = [(i, p) for i, m in enumerate(movers) for p in range(len(m.places))]
         self._bits = {spot: 1 << n for n, spot in enumerate(self.spots)}
@@ -99,11 +102,12 @@ class Conflicts:
                 users[slot] = users.get(slot, 0) | self._bits[i, p]
         return users, ends
 
-    def _stored(self, movers: Sequence[Mover]) -> tuple[Mover, ...]:
+    def _stored(self, movers: Sequence[Mover], every_slot: bool) -> tuple[Mover, ...]:
         """Give movers the storage slots that nothing which stays keeps from being free."""
         slots = self.setup.lab.slots if any(m.stages for m in movers) else {}
         free = [name for name in sorted(slots) if not self.static.conflicts(self._mouths.shapes[name], 0.0)]
         most = MANY_SLOTS if len(movers) <= FEW else ENOUGH_SLOTS
+        most = max(most, EVERY_SLOT // len(movers)) if every_slot else most
         self.more_slots = len(free) > most
         wanted = {m.goal.slot for m in movers}
         return tuple(with_storage(self.setup, m, free, wanted, most) for m in movers)

@@ -70,8 +70,9 @@ class Refusal:
 @dataclass(slots=True)
 class OrderingProblem:
     """One planning problem. `asides`: components that are right but may be moved to make room, as movers; `direct`:
-    only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too.
-    `fastest`: of several answers take that which takes least time, though it stage more."""
+    only moves straight to the goal, of nobody else. `on_table`: parts may be put down in staging regions, too;
+    `every_slot`: in any slot that is free, not only in the nearest of many. `fastest`: of several answers take that
+    which takes least time, though it stage more."""
 
     setup: Setup
     seen: Observation
@@ -81,18 +82,23 @@ class OrderingProblem:
     motion: Motion | None
     on_table: bool = False
     fastest: bool = False
+    every_slot: bool = False
 
     def widened(self, names: frozenset[str]) -> OrderingProblem:
         """Return the problem in which these components may be moved aside."""
         movers = (*self.movers, *(m for m in self.asides if m.name in names))
         rest = tuple(o for o in self.obstacles if o.name not in names)
-        return OrderingProblem(self.setup, self.seen, movers, rest, (), self.motion, self.on_table, self.fastest)
+        return replace(self, movers=movers, obstacles=rest, asides=())
 
 
 def solve(problem: OrderingProblem) -> OrderedMoves | Refusal:
-    """Return an order of moves, or why there is none. Parts are put down on the free table only where slots do not
-    suffice, and what is right is moved only where there is no other way."""
+    """Return an order of moves, or why there is none. All slots are looked at only where the nearest do not suffice,
+    parts are put down on the free table only where slots do not, and what is right is moved only where there is no
+    other way."""
     first, rounds = attempt(problem, PathRounds()), PathRounds()
+    if isinstance(first, Refusal) and first.table.more_slots:
+        problem = replace(problem, every_slot=True)
+        first = attempt(problem, rounds)
     if isinstance(first, OrderedMoves):
         return first
     if any(region.staging for region in problem.setup.lab.regions.values()):
@@ -111,13 +117,16 @@ def solve(problem: OrderingProblem) -> OrderedMoves | Refusal:
 
 def attempt(problem: OrderingProblem, rounds: PathRounds) -> OrderedMoves | Refusal:
     """Return an order for exactly these movers, every path of it checked, or why there is none."""
-    table = Conflicts(problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table)
+    table = Conflicts(
+        problem.setup, problem.movers, problem.obstacles, problem.motion, problem.on_table, problem.every_slot
+    )
     blocked: list[NoPath] = []
     start: Configuration = (0,) * len(table.movers)
     while True:
         found = search_fewest(table, several=problem.fastest)
         if found.steps is None:
-            return Refusal(table, found.core, found.closest, found.proven, tuple(blocked), found.slots)
+            proven = found.proven and not table.more_slots
+            return Refusal(table, found.core, found.closest, proven, tuple(blocked), found.slots)
         answers = dict.fromkeys(shortened(table, steps) for steps in (found.steps, *found.others))
         tours = (toured(table, steps, problem.seen, problem.motion) for steps in answers)
         tour = min(tours, key=lambda t: (round(t.seconds, 3), len(t.steps)))
