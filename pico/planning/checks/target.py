@@ -8,11 +8,25 @@ from dataclasses import dataclass
 from itertools import islice
 
 from pico.diagnostics import Diagnostic, SourceRange, error
-from pico.geometry import Grid, Shape, conflict, fits, moved, outline, overhang, placed, reaches, separation
+from pico.geometry import (
+    Grid,
+    Shape,
+    capture_disc,
+    conflict,
+    finger_height,
+    finger_zones,
+    fits,
+    moved,
+    outline,
+    overhang,
+    placed,
+    reaches,
+    separation,
+)
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.reach import out_of_reach
-from pico.planning.parts.movers import Mover, Obstacle, Place
+from pico.planning.parts.movers import Hold, Mover, Obstacle, Place, turned
 from pico.planning.parts.phrases import listed
 
 Source = Callable[[str], SourceRange | None]
@@ -26,11 +40,24 @@ WAYS = (
 
 @dataclass(frozen=True, slots=True)
 class Standpoint:
-    """Where something stands in the end: a mover at its goal, or what stays."""
+    """Where something stands in the end, and how tall it is [mm]: a mover at its goal, or what stays."""
 
     name: str
     shape: Shape
     moves: bool
+    height: float
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Everything that stands on the table in the end, by name."""
+
+    ends: Mapping[str, Standpoint]
+    grid: Grid[str]
+
+    def near(self, mover: Mover, shape: Shape, margin: float) -> list[Standpoint]:
+        """Return what comes nearer than `margin` mm to a shape that a mover needs."""
+        return [self.ends[name] for name in self.grid.conflicts(shape, margin) if name != mover.name]
 
 
 def no_source(_: str) -> SourceRange | None:
@@ -53,18 +80,18 @@ def check_target(
 ) -> list[Diagnostic]:
     """Return an error for each mover that can't stand at its goal, whatever the order: beside what stays and the
     goals of the others, on the table, outside of keep-outs, in its slot. `alone`: where nothing else is to move."""
-    ends = {o.name: Standpoint(o.name, o.shape, False) for o in obstacles}
-    ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True) for m in movers}
-    grid = Grid.of({name: end.shape for name, end in ends.items()})
+    ends = {o.name: Standpoint(o.name, o.shape, False, o.height) for o in obstacles}
+    ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True, m.geometry.height) for m in movers}
+    standing = Standing(ends, Grid.of({name: end.shape for name, end in ends.items()}))
     others = {m.name: m for m in movers}
     found: list[Diagnostic] = []
     told: set[frozenset[str]] = set()
     for mover in movers:
         found += _where(setup, mover, source)
-        for other in _overlaps(setup, mover, grid, others):
+        for other in _overlaps(setup, mover, standing.grid, others):
             if frozenset((mover.name, other)) not in told:
                 told.add(frozenset((mover.name, other)))
-                found.append(_overlap(setup, mover, ends[other], grid, source, alone))
+                found.append(_overlap(setup, mover, ends[other], standing, source, alone))
     return found
 
 
@@ -100,7 +127,9 @@ def _in_bounds(setup: Setup, mover: Mover, place: Place) -> bool:
     return on_table and not _forbidden(setup, mover, shape)
 
 
-def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], source: Source, alone: bool) -> Diagnostic:
+def _overlap(
+    setup: Setup, mover: Mover, other: Standpoint, standing: Standing, source: Source, alone: bool
+) -> Diagnostic:
     margin = setup.lab.margins.body
     shape = goal_shape(mover, mover.goal)
     gap = separation(shape, other.shape)
@@ -114,7 +143,7 @@ def _overlap(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], sou
         what = f"it would come within {gap:.3g} mm of {other.name}, and {margin:.3g} mm must stay free"
     return error(
         "impossible", f"{mover.name} cannot stand at {_spot(mover.goal)}: {what}", detail=f"{where}; {need}",
-        hint=_way_out(setup, mover, other, grid, alone), address=f"{mover.name}.pose", label=f"{where}; {need}",
+        hint=_way_out(setup, mover, other, standing, alone), address=f"{mover.name}.pose", label=f"{where}; {need}",
         source=located(source, mover),
     )  # fmt: skip
 
@@ -138,12 +167,12 @@ def room_between(a: Shape, b: Shape, margin: float) -> tuple[float, str]:
     return round(high, 2), axis
 
 
-def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], alone: bool) -> str:
+def _way_out(setup: Setup, mover: Mover, other: Standpoint, standing: Standing, alone: bool) -> str:
     ways = []
     if mover.goal.slot:
-        free_ones = _free_slots(setup, mover, grid)
+        free_ones = _free_slots(setup, mover, standing)
         ways.append(f"choose a free slot: {listed(free_ones, 'or')}" if free_ones else "no slot is free for it")
-    elif free := nearest_free(setup, mover, grid):
+    elif free := nearest_free(setup, mover, standing):
         ways.append(f"nearest free place {_place_text(mover.goal.pose, free)}")
     if other.name not in setup.lab.inventory:
         ways.append(f"take {other.name} away by hand")
@@ -154,11 +183,15 @@ def _way_out(setup: Setup, mover: Mover, other: Standpoint, grid: Grid[str], alo
     return "; or ".join(ways)
 
 
-def _free_slots(setup: Setup, mover: Mover, grid: Grid[str]) -> list[str]:
-    """Return the nearest slots in which a mover would touch nothing, three at most."""
+def _free_slots(setup: Setup, mover: Mover, standing: Standing) -> list[str]:
+    """Return the nearest slots that take a mover, where it would touch nothing, three at most."""
     slots, footprint, goal = setup.lab.slots, mover.geometry.footprint, mover.goal.pose
     near = sorted(slots, key=lambda name: (slots[name].pose.distance(goal), name))
-    return list(islice((n for n in near if _free(setup, mover, placed(footprint, slots[n].pose), grid)), 3))
+    return list(islice((
+        name for name in near
+        if fits(slots[name], footprint) and not standing.near(mover, capture_disc(slots[name]), 0.0)
+        and any(_free(setup, mover, place, standing) for place in turned(setup, name, footprint))
+    ), 3))  # fmt: skip
 
 
 def _place_text(pose: Pose, free: tuple[float, float]) -> str:
@@ -169,24 +202,43 @@ def _place_text(pose: Pose, free: tuple[float, float]) -> str:
     return f"is x = {free[0]:g}, y = {free[1]:g}"
 
 
-def nearest_free(setup: Setup, mover: Mover, grid: Grid[str]) -> tuple[float, float] | None:
-    """Return the nearest free place (x, y) for a mover [mm], looked for in every direction of `WAYS` in steps of 1 mm,
-    in whole mm where it is not beside the goal; along x wins a tie. None where there is none on the table."""
-    pose, shape = mover.goal.pose, goal_shape(mover, mover.goal)
+def nearest_free(setup: Setup, mover: Mover, standing: Standing) -> tuple[float, float] | None:
+    """Return the nearest free place (x, y) for a mover [mm], where fingers have room around it, looked for in every
+    direction of `WAYS` in steps of 1 mm, in whole mm where it is not beside the goal; along x wins a tie. None where
+    there is none on the table."""
+    pose = mover.goal.pose
     for step in range(1, int(max(setup.lab.table.size)) + 1):
         for east, north in WAYS:
             x = round(pose.x + step * east) if east else pose.x
             y = round(pose.y + step * north) if north else pose.y
-            if _free(setup, mover, moved(shape, x - pose.x, y - pose.y), grid):
+            if _free(setup, mover, Place(Pose(x, y, pose.yaw)), standing):
                 return float(x), float(y)
     return None
 
 
-def _free(setup: Setup, mover: Mover, shape: Shape, grid: Grid[str]) -> bool:
-    if overhang(setup.lab.table, shape) > 0 or _forbidden(setup, mover, shape):
+def _free(setup: Setup, mover: Mover, place: Place, standing: Standing) -> bool:
+    """Whether a mover may stand at a place beside everything else, and a hand that may move it gets there."""
+    shape = goal_shape(mover, place)
+    if not _in_bounds(setup, mover, place) or standing.near(mover, shape, setup.lab.margins.body):
         return False
-    margin = setup.lab.margins.body
-    return all(n == mover.name for n in grid.conflicts(shape, margin)) and _reached(setup, mover, shape)
+    if not _reached(setup, mover, shape):
+        return False
+    return not mover.holds or any(_gripped(setup, mover, hold, place.pose, standing) for hold in mover.holds)
+
+
+def _gripped(setup: Setup, mover: Mover, hold: Hold, pose: Pose, standing: Standing) -> bool:
+    """Whether the fingers of a hold have room around a mover beside everything else."""
+    grasp, lab = mover.geometry.grasp, setup.lab
+    if hold.robot is None or grasp is None:
+        return True
+    gripper = lab.robots[hold.robot].gripper
+    lowest = finger_height(grasp, gripper)
+    for zone in finger_zones(grasp, gripper, hold.yaw, pose):
+        if any(other.height > lowest for other in standing.near(mover, zone, lab.margins.fingers)):
+            return False
+        if any(reaches(k, lowest, math.inf) and conflict(zone, outline(k)) for k in lab.keep_out.values()):
+            return False
+    return True
 
 
 def _reached(setup: Setup, mover: Mover, shape: Shape) -> bool:

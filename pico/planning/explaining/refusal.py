@@ -8,8 +8,8 @@ from dataclasses import replace
 from pico.diagnostics import Diagnostic, error
 from pico.geometry import fits
 from pico.model.plan import Blocking
-from pico.motion.types import Blocked
 from pico.planning.checks.target import Source, located
+from pico.planning.explaining.alone import alone_refused, no_path
 from pico.planning.explaining.certificate import stored_would_do
 from pico.planning.explaining.proof import Proof, stuck_of
 from pico.planning.explaining.reasons import body_overlap
@@ -30,14 +30,14 @@ def explain(refused: Refusal, source: Source, proven: Proof | None = None) -> li
 
 def _explained(refused: Refusal, source: Source, proven: Proof | None) -> list[Diagnostic]:
     if len(refused.core) == 1:
-        alone = [_alone(refused, refused.core[0], source)]
+        alone = [alone_refused(refused, refused.core[0], source)]
         wide = refused.widest
         if wide and len(wide.core) == 1 and not wide.table.movers[wide.core[0]].right:
-            alone.append(_alone(wide, wide.core[0], source))  # even where what stands in the way may be moved
+            alone.append(alone_refused(wide, wide.core[0], source))  # even where what stands in the way may be moved
         return [one for n, one in enumerate(alone) if one.address not in {a.address for a in alone[:n]}]
     own = proven.own.blocking if proven else None
     if (last := _last_path(refused, own)) is not None:
-        return [_no_path(refused.table, last, source)]
+        return [no_path(refused.table, last, source)]
     movers = refused.table.movers
     stuck = stuck_of(refused)
     if own is not None:
@@ -75,82 +75,6 @@ def storage_note(answer: OrderedMoves) -> list[Diagnostic]:
         summary=f"{more} more staging move{'s' if more > 1 else ''} than with more room in storage",
         hint=f"with {answer.slots} free slots within reach {answer.least} would do",
     )]  # fmt: skip
-
-
-def _alone(refused: Refusal, i: int, source: Source) -> Diagnostic:
-    """A mover that can't get home even with all other movers off the table."""
-    table = refused.table
-    mover = table.movers[i]
-    own = [b for b in refused.blocked if b.step.mover == i]
-    if own:
-        direct = [b for b in own if b.step.start == 0 and b.step.goal in mover.goals]
-        return _no_path(table, (direct or own)[0], source)
-    if not mover.holds:
-        return error("blocked", f"{mover.name} can't be moved: no robot has its gripper free", address=mover.name)
-    for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
-        if all(table.grip(i, p, h) is None for p in places for h in mover.holds):
-            return _no_grip(table, i, verb, places, source)
-    storage = "stage: never" if not mover.stages else "no storage slot where it could be put down in between"
-    return error(
-        "blocked", f"{mover.name} can't go from {mover.start} to {mover.goal}: no one grasp is free at both ends",
-        detail=f"{mover.name}: {storage}", hint="free a storage slot, or leave more room on one side of it",
-        address=f"{mover.name}.pose", source=located(source, mover),
-    )  # fmt: skip
-
-
-def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source: Source) -> Diagnostic:
-    mover = table.movers[i]
-    place = mover.places[places[0]]
-    where = f"{mover.name} can't be {verb} at {place}"
-    stands = verb == "picked up"
-    standing = source(f"slots.{place.slot}") if place.slot else None  # where it stands now is in no state
-    address, blame = f"{mover.name}.pose", standing if stands else located(source, mover)
-    hits = [(h, hit) for p in places for h in mover.holds for hit in table.finger_hits(i, p, h)]
-    reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
-    free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
-    if reach and (free or not hits):
-        by_hand = "by hand: " if stands and reach[0].kind == "reach" else ""
-        return error(
-            "unreachable", f"{where}: {reach[0].text}",
-            hint=by_hand + (reach[0].help or "bring it nearer to the arm, or turn it"),
-            address=address, source=blame,
-        )  # fmt: skip
-    if not hits:
-        return error("blocked", f"{where}: a keep-out leaves no room for the fingers", address=address, source=blame)
-    names = sorted({name for _, (name, _) in hits})
-    deepest = min(gap for _, (_, gap) in hits)
-    touch = f"by {-deepest:.3g} mm" if deepest < 0 else f"(only {deepest:.3g} mm apart)"
-    return error(
-        "blocked", f"{where}: a finger of the gripper would touch {listed(names)} {touch}, every grasp yaw tried",
-        hint=f"move {listed(names, 'or')} away first, or leave more room there", address=address, source=blame,
-    )  # fmt: skip
-
-
-def _struck(blocked: Blocked) -> str:
-    """What is in the way and by how much; a depth alone says nothing."""
-    if not blocked.obstacle:
-        return ""
-    return f"in the way: {blocked.obstacle}" + (f" by {blocked.by:.3g} mm" if blocked.by is not None else "")
-
-
-def _no_path(table: Conflicts, no: NoPath, source: Source) -> Diagnostic:
-    mover, blocked = table.movers[no.step.mover], no.blocked
-    goal = mover.places[no.step.goal]
-    primitive = "stow" if goal.slot else "move"
-    during = f" during {blocked.segment}" if blocked.segment else ""
-    code = "unreachable" if blocked.kind == "reach" else "blocked"
-    hint = f"move {blocked.obstacle} away first" if blocked.obstacle in table.obstacles else "choose another place"
-    if blocked.segment == "park":
-        return error(
-            code, f"after it brings {mover.name} to {goal} {no.step.hold.robot} can't park: {blocked.text}",
-            detail=_struck(blocked),
-            hint=blocked.help or hint, address=f"{mover.name}.pose", source=located(source, mover),
-        )  # fmt: skip
-    return error(
-        code, f"{primitive} of {mover.name} to {goal} has no free path{during}: {blocked.text}",
-        detail=_struck(blocked),
-        hint=blocked.help or hint, address=f"{mover.name}.pose", source=located(source, mover),
-    )  # fmt: skip
 
 
 def _ring(
@@ -193,8 +117,13 @@ def _room(table: Conflicts, names: Sequence[str], slots: int, blocking: Sequence
     if blocking is not None and not (stored and stored_would_do(table, stored)):
         fingers = any(c.kind == "fingers" for c in blocking)
         return "leave more room between them" + (" for the fingers, or give their types other grasp yaws" * fingers)
-    inventory = table.setup.lab.inventory
+    setup, waits = table.setup, [n for n in names if blocking is None or n in stored]
+    inventory, by_hand = setup.lab.inventory, [name for name in waits if not setup.movable(name)]
+    if by_hand and len(by_hand) == len(waits):
+        return f"put {by_hand[0]} at a free place for now (`pico move {by_hand[0]} x=... y=...`), then plan again"
     allowed = [name for name in names if inventory[name].stage == "never"]
+    if waits and set(waits) <= set(allowed):
+        return f"allow staging of {listed(waits, 'or')}, with one slot free within reach"
     enough = f"{slots} slots within reach that take them" if slots > 1 else "one slot within reach"
     if allowed and len(allowed) < 6:
         return f"free {enough}, or allow staging of {listed(allowed, 'or')}"

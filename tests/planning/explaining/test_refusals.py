@@ -10,6 +10,7 @@ from random_labs import Case
 from pico.diagnostics import Position, SourceRange
 from pico.model.lab import Box2, KeepOut, Margins, Slot, Tether
 from pico.model.plan import Blocking, Plan
+from pico.model.pose import Pose
 from pico.model.robot import Gripper, Mount, Robot
 
 
@@ -39,6 +40,28 @@ def test_the_nearest_free_place_may_lie_across() -> None:
     x, y = (float(word.rsplit(" ", 1)[1]) for word in found.hint.split(";")[0].split(", "))
     assert (x, y) != (332.0, 300.0) and found.hint.startswith("nearest free place is x = ")
     assert not planned(setup, see(setup, parts), want({**parts, "a": (int(x), int(y))})).errored
+
+
+def test_in_the_nearest_free_place_fingers_have_room() -> None:
+    setup = bench({"a": "one_way", "wall": "block"})  # the jaws close along x
+    seen = see(setup, {"a": (100, 100), "wall": (400, 300)})
+    (found,) = planned(setup, seen, want({"a": (440, 300), "wall": (400, 300)})).diagnostics
+    x = float(found.hint.split(";")[0].rsplit(" ", 1)[1])
+    assert found.hint.startswith("nearest free place along x is x = ") and x > 470
+    assert not planned(setup, seen, want({"a": (x, 300), "wall": (400, 300)})).errored
+
+
+def test_the_slots_offered_take_the_part_and_may_lie_beside_the_table() -> None:
+    slots = {
+        "taken": Slot(x=400, y=300), "small": Slot(x=480, y=300, fits=20), "beside": Slot(x=900, y=300),
+        "mouth": Slot(x=400, y=370, capture=45),
+    }  # fmt: skip
+    gantry = {"arm1": Robot(model="gantry", mount=Mount(x=0, y=0))}
+    setup = bench({"a": part(home="taken"), "wall": part(pose=Pose(400, 300))}, slots, robots=gantry)
+    seen = see(setup, {"a": (100, 100), "wall": (400, 300)})
+    (found,) = planned(setup, seen, want({"a": "taken", "wall": (400, 300)})).diagnostics
+    assert found.hint.split(";")[0] == "choose a free slot: beside"
+    assert not planned(setup, seen, want({"a": "beside", "wall": (400, 300)})).errored
 
 
 def test_two_goals_that_overlap_are_told_once() -> None:
@@ -158,7 +181,7 @@ def test_a_ring_that_nothing_breaks_is_printed_as_a_chain() -> None:
         "m3: stage: never",
         "m2: stage: never",
     ]
-    assert found.hint == "free one slot within reach, or allow staging of m1, m3 or m2"
+    assert found.hint == "allow staging of m1, m3 or m2, with one slot free within reach"
 
 
 def test_a_ring_says_that_the_slots_are_taken() -> None:

@@ -14,9 +14,10 @@ from pico.model.catalog import Footprint
 from pico.model.lab import Box2, KeepOut, Margins, Part, Slot
 from pico.model.observation import Observation, UnknownObject
 from pico.model.operation import Operation, Reason
-from pico.model.plan import Base
+from pico.model.plan import Base, Plan
 from pico.model.pose import Pose
 from pico.model.request import place_after
+from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.motion.types import Blocked
 from pico.planning import PlanGoal, set_one
@@ -114,13 +115,59 @@ def test_a_part_that_no_free_gripper_can_take_is_told() -> None:
 def test_a_part_whose_grasps_are_free_at_one_end_each_needs_storage_or_room() -> None:
     walls = {"south": (300.0, 236.0), "east": (564.0, 300.0)}
     parts = {"a": part("block"), **dict.fromkeys(walls, part(seating="bolted"))}
-    for stage, says in (("never", "a: stage: never"), ("allowed", "a: no storage slot where it could")):
+    for stage, says, turn in (
+        ("never", "a: stage: never", "allow staging of a, with a storage slot free"),
+        ("allowed", "a: no storage slot where it could", "free a storage slot"),
+    ):
         parts["a"] = part("block", stage=stage)
         made = table(parts, {"a": (300, 300), **walls}, {"a": (500, 300), **walls})
         found = refused(made, (0,))
         assert found.summary == "a can't go from (300, 300, 0°) to (500, 300, 0°): no one grasp is free at both ends"
         assert found.detail.startswith(says) and found.address == "a.pose"
-        assert found.hint == "free a storage slot, or leave more room on one side of it"
+        assert found.hint == f"{turn}, or leave more room on one side of it"
+
+
+def test_a_part_that_one_arm_must_hand_to_another_needs_a_slot_that_both_reach() -> None:
+    class Halves:
+        """Two arms, each of which reaches its own half of the table."""
+
+        def reach(self, robot: str, component: str, pose: Pose, grasp_yaw: float) -> Blocked | None:
+            return None if (pose.x < 400) == (robot == "arm1") else Blocked("reach", "too far")
+
+    arms = {name: Robot(model="gantry", mount=Mount(x=0, y=0)) for name in ("arm1", "arm2")}
+    for stage, more in (("allowed", ""), ("never", ", and allow staging of a")):
+        made = table({"a": part(stage=stage)}, {"a": (200, 300)}, {"a": (600, 300)}, Halves(), robots=arms)
+        found = refused(made, (0,))
+        assert found.code == "unreachable"
+        assert found.summary == (
+            "a can't go from (200, 300, 0°) to (600, 300, 0°): "
+            "only arm1 reaches where it stands, and only arm2 where it is to go"
+        )
+        assert found.hint == (f"give arm1 and arm2 a free slot that both reach, or a region with `staging: true`{more}")
+
+
+def test_a_part_in_the_mouth_of_a_slot_is_told_and_a_capture_that_leaves_it_out_helps() -> None:
+    slots = {"s1": Slot(x=60, y=60, capture=40), "s2": Slot(x=130, y=60, capture=45)}
+    places = {"a": "s1", "b": (300, 300)}
+
+    def answer(capture: float) -> Plan:
+        given = slots | {"s2": replace(slots["s2"], capture=capture)}
+        setup = bench({"a": part(seating="bolted"), "b": part()}, given)
+        return planned(setup, see(setup, places), want({"a": (60, 60), "b": "s2"}))
+
+    (found,) = answer(45).diagnostics
+    assert found.summary == "b can't be put down in s2: a stands in its mouth"
+    assert found.hint == "give s2 a `capture` of less than 40 mm, or move a away first"
+    assert not answer(39.9).errored
+
+
+def test_who_swaps_what_only_people_move_is_told_to_put_one_aside() -> None:
+    spots = {"a": (300, 300), "b": (400, 300)}
+    setup = bench({n: part(seating="bolted") for n in spots})
+    swapped = want({"a": spots["b"], "b": spots["a"]})
+    (found,) = planned(setup, see(setup, spots), swapped).diagnostics
+    assert found.hint == "put a at a free place for now (`pico move a x=... y=...`), then plan again"
+    assert not planned(setup, see(setup, spots | {"a": (600, 300)}), swapped).errored
 
 
 def test_fingers_that_would_come_near_are_told_apart_from_fingers_that_would_touch() -> None:
