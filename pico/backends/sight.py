@@ -136,7 +136,7 @@ def _observation(
     places = {name: seen.pose for name, seen in sighting.components.items()}
     occluders = Occluders(setup, places, {n: r.joints for n, r in known.robots.items()}, cameras.cameras, sighting.dark)
     components: dict[str, ObservedComponent] = {}
-    problems = [d.diagnostic() for d in sighting.drift]
+    problems = [*known.problems, *(d.diagnostic() for d in sighting.drift)]
     problems += [_finding(f) for f in sighting.findings if f.kind not in ("hidden", "datums")]
     problems += [_unwatched(f, calibrated) for f in sighting.of("datums")]
     for name in setup.lab.inventory:

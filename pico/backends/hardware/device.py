@@ -17,7 +17,7 @@ from pico.backends.hardware.pictures import alike, grayed
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -37,6 +37,8 @@ if TYPE_CHECKING:
     from pico.twin.snapshot import Snapshot
     from pico.vision.frame import Region
 
+LOST = 6
+"""Pictures that are asked of a camera over the bench before none comes; of those that come black TRIES."""
 PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
 T = TypeVar("T")
 
@@ -130,7 +132,7 @@ class HardwareDevice:
     async def _frame(self, bench: Instruments, name: str, region: Region | None = None) -> Frame:
         """Return a picture of a camera over the table, of a region of its sensor; taken again while it is black, and
         where it got lost."""
-        for left in reversed(range(TRIES)):
+        for left in reversed(range(LOST)):
             try:
                 gray = grayed(await bench.cameras[name].grab())
             except PicoError:
@@ -140,12 +142,25 @@ class HardwareDevice:
             u, v, width, height = region or (0, 0, gray.shape[1], gray.shape[0])
             u, v = max(0, u), max(0, v)
             frame = Frame(gray[v : v + height, u : u + width], (u, v), name, self.links.now())
-            if not frame.black:
+            if not frame.black or left <= LOST - TRIES:
                 break
         return frame
 
+    def _told(self, bench: Instruments) -> list[Diagnostic]:
+        """What must be known of the instruments before anything moves."""
+        found = []
+        if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
+            text = f"no device of this bench has {', '.join(without)}: nobody compares or sets that"
+            found.append(Diagnostic("note", "no-device", text))
+        for robot in sorted(self.links.untried()):
+            text = f"the driver of {robot} was never tried on a device: it makes one motion a command, at 50 mm/s"
+            hint = "keep a hand on the stop, and look after each motion"
+            found.append(warning("first-motion", text, hint=hint, address=robot))
+        return found
+
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
+        found = replace(found, problems=(*found.problems, *self._told(bench)))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip

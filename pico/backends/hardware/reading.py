@@ -97,7 +97,10 @@ def sensed(
 
 
 def _values(setup: Setup, found: Told, name: str) -> dict[str, ObservedValue]:
-    return {t: found.values.get(f"{name}.{t}", UNKNOWN) for t in setup.type_of(name).tunables}
+    """The tunables as they were read. Those without a device are left out, so that nobody compares or sets them; but
+    light that nobody reads may be there."""
+    kept = {t for t in setup.type_of(name).tunables if f"{name}.{t}" in found.values or setup.requests(name, t)}
+    return {t: found.values.get(f"{name}.{t}", UNKNOWN) for t in sorted(kept)}
 
 
 def _felt(

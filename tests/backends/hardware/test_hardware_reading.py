@@ -1,0 +1,130 @@
+"""What a bench tells without pictures, and what is said of what it does not tell."""
+
+from __future__ import annotations
+
+import asyncio
+from pathlib import Path
+from typing import Any
+
+import pytest
+from emulated_lab import wired_lab
+
+from pico.backends.hardware.instruments import Instruments, require_whole, unwired, wired
+from pico.backends.hardware.reading import sensed, told
+from pico.backends.hardware.settings import Settings
+from pico.backends.hardware.tunables import Motorized
+from pico.backends.last_seen import Taken
+from pico.diagnostics import PicoError, error
+from pico.drivers.protocols import ArmState, Grip, SafetyState
+from pico.drivers.registry import Buses, driver
+from pico.model.observation import Observation
+from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.model.wiring import SafetyEntry, Wired
+from pico.twin.arms import TwinArm
+
+
+class One:
+    """An instrument that reads what it is told, or fails."""
+
+    def __init__(self, reads: Any) -> None:
+        self.reads = reads
+
+    async def read(self) -> Any:
+        if isinstance(self.reads, PicoError):
+            raise self.reads
+        return self.reads
+
+    state = grip = position = read
+
+
+LOST = PicoError(error("device-lost", "it did not answer within 2 s", address="p1_mount"))
+
+
+@pytest.fixture
+def setup(tmp_path: Path) -> Setup:
+    return wired_lab(tmp_path)
+
+
+def seen_of(
+    setup: Setup, *, angle: Any = 12.5, width: float = 84.0, curtain: Any = True, arm: Any = None
+) -> Observation:
+    bench, park = Instruments(), setup.lab.robots["arm1"].park_joints
+    bench.arms["arm1"] = One(arm or ArmState(joints=park, age=0.1, moving=False, enabled=True))  # type: ignore[assignment]
+    bench.grippers["arm1"] = One(Grip(width=width, holds=None))  # type: ignore[assignment]
+    bench.tunables["p1.angle"] = Motorized(One(angle), Wired(property="angle"), "deg")  # type: ignore[arg-type]
+    entry = SafetyEntry(kind="curtain", device="box")
+    state = curtain if isinstance(curtain, PicoError) else SafetyState(safe=curtain, age=0.0)
+    bench.inputs["curtain"] = entry, One(state)  # type: ignore[assignment]
+    arms = {"arm1": TwinArm(setup.lab.robots["arm1"])}
+    taken = {"arm1": Taken(component="lx_125", pose=Pose(0, 0))}
+    found = asyncio.run(told(bench))
+    return sensed(setup, arms, found, {"curtain": "curtain"}, taken, "hardware", 5.0, "2026-11-25T12:00:00Z")
+
+
+def test_what_instruments_tell_is_known(setup: Setup) -> None:
+    seen = seen_of(setup)
+    assert seen.known_values["p1"] == {"angle": 12.5}
+    assert seen.robots["arm1"].joints == setup.lab.robots["arm1"].park_joints
+    assert (seen.robots["arm1"].holding, seen.robots["arm1"].opening, seen.person) == (None, 84.0, False)
+    assert not seen.problems
+
+
+def test_an_axis_that_does_not_answer_is_unknown_and_told(setup: Setup) -> None:
+    seen = seen_of(setup, angle=LOST)
+    assert seen.components["p1"].values["angle"].status == "unknown"
+    assert [(p.code, p.address) for p in seen.problems] == [("unread", "p1.angle")]
+    assert "it did not answer within 2 s" in seen.problems[0].summary
+
+
+def test_an_axis_that_must_be_homed_is_unknown(setup: Setup) -> None:
+    assert seen_of(setup, angle=None).components["p1"].values["angle"].status == "unknown"
+
+
+def test_where_an_arm_can_not_tell_where_it_is_nothing_is_seen(setup: Setup) -> None:
+    with pytest.raises(PicoError, match="did not answer"):
+        seen_of(setup, arm=LOST)
+
+
+def test_a_hand_holds_what_it_took_where_its_pads_are_as_far_apart_as_that_is_wide(setup: Setup) -> None:
+    grasp = setup.type_of("lx_125").geometry.grasp
+    assert grasp is not None
+    seen = seen_of(setup, width=grasp.width + 0.3)
+    assert seen.robots["arm1"].holding == "lx_125" and seen.components["lx_125"].presence == "held"
+    assert seen_of(setup, width=10.0).robots["arm1"].holding is None
+
+
+@pytest.mark.parametrize(("curtain", "person"), [(True, False), (False, True), (None, None), (LOST, None)])
+def test_somebody_is_at_the_table_unless_a_curtain_says_that_nobody_is(
+    setup: Setup, curtain: Any, person: bool | None
+) -> None:
+    assert seen_of(setup, curtain=curtain).person is person
+
+
+def test_what_has_no_device_is_left_out_but_for_light(setup: Setup) -> None:
+    seen = seen_of(setup)
+    assert set(seen.components["ly_150"].values) == set()
+    assert seen.components["laser"].values["shutter"].status == "unknown", "it may be open"
+
+
+def test_the_instruments_of_a_lab_are_found_by_what_it_names(setup: Setup, tmp_path: Path) -> None:
+    assert setup.wiring is not None
+    found = wired(setup, setup.wiring.devices, Buses(), Settings(tmp_path, "hardware"))
+    assert set(found.arms) == set(found.grippers) == {"arm1"} and set(found.cameras) == {"left", "right"}
+    assert {"p1.angle", "ly_150.stage_y", "laser.shutter", "laser.emission", "cam.exposure"} <= set(found.tunables)
+    assert set(found.sensors) == {"cam"} and set(found.inputs) == {"curtain"}
+    assert unwired(setup, found) == ()
+
+
+@pytest.mark.parametrize(
+    ("without", "said"),
+    [("arm1", "no driver for the arm arm1"), ("arm1_hand", "no driver for the gripper of arm1"),
+     ("right", "no driver for the camera right")],
+)  # fmt: skip
+def test_a_bench_that_lacks_what_nothing_works_without_says_so(setup: Setup, without: str, said: str) -> None:
+    assert setup.wiring is not None
+    entries = {name: entry for name, entry in setup.wiring.devices.items() if name != without}
+    kinds = {name: driver(entry.driver).kind for name, entry in entries.items()}
+    with pytest.raises(PicoError) as caught:
+        require_whole(setup, entries, kinds)
+    assert said in caught.value.diagnostics[0].detail
