@@ -296,6 +296,28 @@ def test_an_arm_that_is_halted_before_it_gripped_leaves_the_part_and_parks(setup
     assert setup.lab.robots["arm1"].is_parked(bench.joints) and not bench.holding
 
 
+@pytest.mark.parametrize(("leg", "ends"), [(3, "put back"), (5, "goal")])
+def test_a_part_in_the_hand_of_an_arm_that_is_halted_goes_wherever_is_nearer(setup: Setup, leg: int, ends: str) -> None:
+    bench = Bench(setup)
+    bench.slow = True
+
+    async def halted() -> OperationResult:
+        one = session(bench)
+        going = asyncio.create_task(one.execute(move(), "run/op3/1", lambda before: None))
+        while bench.legs < leg:
+            await asyncio.sleep(0.001)
+        await one.halt()
+        return await going
+
+    result, home = asyncio.run(halted()), setup.lab.slots[SLOT].pose
+    assert not bench.holding and "halt" not in bench.said, "a part in the hand is not stopped over the table"
+    if ends == "goal":
+        assert result.outcome == "done" and bench.at.distance(GOAL) < 1e-6
+    else:
+        assert result.error is not None and result.error.code == "put-back" and SLOT in result.error.summary
+        assert bench.at.distance(home) < 1e-6
+
+
 @pytest.mark.parametrize(
     ("safe", "age", "why"),
     [(False, 0.0, "is not safe"), (None, 0.0, "is not known to be safe"), (True, 2.0, "was last heard 2.0 s ago")],
