@@ -53,6 +53,7 @@ class Links:
         self.emulators: EmulatedBench | None = None
         self._buses = Buses()
         self._instruments: Instruments | None = None
+        self._about: Instruments | None = None
         self._connecting = asyncio.Lock()
 
     @property
@@ -70,7 +71,9 @@ class Links:
 
     def about(self) -> Instruments:
         """Return the instruments of the lab's devices, none of them connected: what there is, without asking any."""
-        return wired(self.setup, self.entries, Buses(), Settings(self.root, self.bench))
+        if self._about is None:
+            self._about = wired(self.setup, self.entries, Buses(), Settings(self.root, self.bench))
+        return self._about
 
     def untried(self) -> frozenset[str]:
         """Return the robots of a real bench whose driver was never tried on a device."""

@@ -16,7 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pico.backends.devices import SIMULATOR
+from pico.backends.devices import EMULATED, SIMULATOR
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -217,10 +217,11 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("lab", type=Path)
     parser.add_argument("--backend", default=SIMULATOR)
+    parser.add_argument("--emulate", action="store_true", help="with --backend hardware: emulators of the devices")
     parser.add_argument("--fidelity", choices=("kinematic", "physics"), default="kinematic")
     given = parser.parse_args()
     try:
-        edge = edge_of(given.lab, given.backend, given.fidelity)
+        edge = edge_of(given.lab, EMULATED if given.emulate else given.backend, given.fidelity)
         with suppress(KeyboardInterrupt):
             asyncio.run(
                 serve(edge, lambda: _say(f"{given.lab.resolve().name} is served ({given.fidelity}); Ctrl-C ends that"))
