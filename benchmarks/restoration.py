@@ -12,8 +12,9 @@ bound. The shift is half the way of the spot from one side of crossed to the oth
 in E2-3 and E1-3, built again from there. There p2 is put down until it is seen tilted to 0.03 deg, before and after a
 restoration: its seat repeats to 0.05 deg, 0.2 um of the shift. Without a stage that centres it the first lens
 does as much, by 0.1 mm; `pico budget --repeats` tells that, and nothing of it is noise. Where no axis reaches the spot,
-it is where the placement of parts puts it: those farther off than 2.49 standard deviations of that, both axes taken
-together, are counted; one in 22 is by chance.
+it is where the placement of parts puts it, as PICO says by how they are seen to stand now against then: those farther
+off from there than 2.49 standard deviations of what is not seen, both axes taken together, are counted; one in 22 is by
+chance.
 
 The bound is reckoned before anything moves, from the bench as it is seen and the state that is wanted. Travel: the
 least time that the arm needs for these moves in any order, its hand and its parking included, or the slowest motor.
@@ -368,7 +369,7 @@ def _light(bench: Bench, came: Came, tag: str, report: RunReport) -> Came:
     if report.goals:  # one of them says where the spot is to be
         off, open_to = max(abs(one.now or 0.0) for one in (across, up)), NEAR
     else:
-        off = math.hypot(*(((one.now or 0.0) - (one.before or 0.0)) / one.sigma for one in (across, up)))
+        off = math.hypot(*(((one.now or 0.0) - (one.wanted or 0.0)) / one.sigma for one in (across, up)))
         open_to = LIKELY
     return replace(came, share=light.share, off=off, open_to=open_to)
 

@@ -58,7 +58,7 @@ _ALONG = ("interlock", "parked")
 class Alignment:
     """How a goal stands: `why` where it is not aligned; `at` by the wall, and `last`, what was measured then; `order`:
     how far along the beam its first tunable stands [mm], None where its light does not come through all that is tuned
-    to all that is measured; `seconds` that it takes to be sought again."""
+    to all that is measured; `seconds` that it takes to be sought again, and whether that is by `experience`."""
 
     goal: str
     status: Status
@@ -67,6 +67,7 @@ class Alignment:
     last: Mapping[str, float] | None = None
     order: float | None = None
     seconds: float = 0.0
+    experience: bool = False
 
 
 def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRecord]:
@@ -162,11 +163,11 @@ def experience(opened: Remembering, name: str, goal: Goal, algorithm: str) -> fl
     return _took(name, goal, algorithm, since_last_sought(memory, [name])) if memory else None
 
 
-def _takes(setup: Setup, name: str, goal: Goal, records: Sequence[JournalRecord]) -> float:
-    """Return what a goal takes [s]: by experience, else what its algorithm usually needs."""
+def _takes(setup: Setup, name: str, goal: Goal, records: Sequence[JournalRecord]) -> tuple[float, bool]:
+    """Return what a goal takes [s], by experience, else what its algorithm usually needs; and whether by the former."""
     algorithm = goal.algorithm or algorithm_for(setup, goal)[0]
     known = _took(name, goal, algorithm, records)
-    return seconds(setup, goal, algorithm) if known is None else known
+    return (seconds(setup, goal, algorithm), False) if known is None else (known, True)
 
 
 def _took(name: str, goal: Goal, algorithm: str, records: Sequence[JournalRecord]) -> float | None:
@@ -181,12 +182,14 @@ def _took(name: str, goal: Goal, algorithm: str, records: Sequence[JournalRecord
 
 
 def alignments(
-    setup: Setup, seen: Observation, records: Sequence[JournalRecord], now: str, took: Mapping[str, float]
-) -> tuple[Alignment, ...]:
+    setup: Setup, seen: Observation, records: Sequence[JournalRecord], now: str,
+    took: Mapping[str, tuple[float, bool]],
+) -> tuple[Alignment, ...]:  # fmt: skip
     """Return how each goal of a Lab stands, in the order along the beam in which they are to be redone. `records`: of
-    the journal; `now` by the wall, ISO 8601; `took`: seconds that each is reckoned with."""
+    the journal; `now` by the wall, ISO 8601; `took`: seconds that each is reckoned with, and
+    whether by experience."""
     found = [
-        _alignment(setup, seen, name, goal, records, now, took.get(name, 0.0))
+        _alignment(setup, seen, name, goal, records, now, took.get(name, (0.0, False)))
         for name, goal in (setup.lab.goals or {}).items()
     ]
     return tuple(sorted(found, key=lambda a: (a.order is None, a.order or 0.0, a.goal)))
@@ -244,17 +247,19 @@ def redone(
         if why:
             goal = (setup.lab.goals or {})[one.goal]
             asked, first = stages(setup, then, ready.get(one.goal) or Ready(one.goal, goal))
-            chosen.append(Turn(asked, first, one.seconds, Reason(kind="align", text=why)))
+            took = one.seconds if one.experience else None
+            chosen.append(Turn(asked, first, took, Reason(kind="align", text=why)))
     return tuple(chosen)
 
 
 def _alignment(
-    setup: Setup, seen: Observation, name: str, goal: Goal, records: Sequence[JournalRecord], now: str, took: float
-) -> Alignment:
+    setup: Setup, seen: Observation, name: str, goal: Goal, records: Sequence[JournalRecord], now: str,
+    took: tuple[float, bool],
+) -> Alignment:  # fmt: skip
     order = goal_light(setup, seen, goal).order
 
     def standing(status: Status, why: str = "", at: str = "", last: Mapping[str, float] | None = None) -> Alignment:
-        return Alignment(name, status, why, at, last, order, took)
+        return Alignment(name, status, why, at, last, order, *took)
 
     sought = {r.key: r for r in records if r.kind == "intent" and (_seeks(r, name) or _verifies(r, name))}
     ends = [r for r in records if r.key in sought and _tells(sought[r.key], r)]

@@ -119,11 +119,10 @@ class Goals:
 
     def _takes(self, one: Sought, first: Sequence[Sought]) -> float:
         from pico.bench.aligned import experience
-        from pico.planning.optimizing import seconds
+        from pico.planning.optimizing import reckoned
 
         known = experience(self.opened, one.name, one.goal, one.algorithm)
-        reckoned = sum(seconds(self.opened.setup, stage.goal, stage.algorithm) for stage in (*first, one))
-        return reckoned if known is None else known
+        return reckoned(self.opened.setup, (*first, one)) if known is None else known
 
     def _of(self, words: list[str]) -> Ready:
         from pico.bench.ready.registry import known, made_ready

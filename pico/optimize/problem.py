@@ -68,13 +68,15 @@ class Nominal:
     `shape` H: how the logarithm of a power falls around its best, ln P = c - u' H u, u from there. `spread`: the
     covariance of where the best is, around where the tunables stand. `depth`: by how much ln P may fall until it is
     dark; of a goal to be reached what is searched is all that its detector sees, and that is 1. `shift`: how far from
-    where the tunables stand the middle of the spread is, none where that is empty.
+    where the tunables stand the middle of the spread is, none where that is empty. `slopes`: of a goal to be reached by
+    how much each output changes with a unit of each tunable, a row an output; empty where the model cannot tell.
     """
 
     shape: tuple[tuple[float, ...], ...]
     spread: tuple[tuple[float, ...], ...]
     depth: float
     shift: tuple[float, ...] = ()
+    slopes: tuple[tuple[float, ...], ...] = ()
 
     def reach(self, number: int) -> float:
         """Return how far from where it stands the best value of a tunable is likely to be, three standard
@@ -86,8 +88,10 @@ def nominal_from_json(data: Mapping[str, Any] | None) -> Nominal | None:
     """Return what a plan has of it; None for nothing."""
     if data is None:
         return None
-    shape, spread = (tuple(tuple(map(float, row)) for row in data[name]) for name in ("shape", "spread"))
-    return Nominal(shape, spread, float(data["depth"]), tuple(map(float, data.get("shift") or ())))
+    shape, spread, slopes = (
+        tuple(tuple(map(float, row)) for row in data.get(name) or ()) for name in ("shape", "spread", "slopes")
+    )
+    return Nominal(shape, spread, float(data["depth"]), tuple(map(float, data.get("shift") or ())), slopes)
 
 
 @dataclass(frozen=True)
@@ -202,8 +206,8 @@ class Solver(Protocol):
 @dataclass(frozen=True)
 class Declaration:
     """What a file of algorithms brings: its name is the file's. `aims` that it can, how many `variables` and `outputs`
-    it takes (least and most), its `parameters` with their defaults, and how many measurements are `usual`. `solves`: it
-    is a `Solver`."""
+    it takes (least and most), its `parameters` with their defaults, and how many measurements are `usual`, and how many
+    where it is `told` how the outputs change with the tunables (0: as many). `solves`: it is a `Solver`."""
 
     what: str
     aims: tuple[Aim, ...]
@@ -211,6 +215,7 @@ class Declaration:
     outputs: tuple[int, int] = (1, 1)
     parameters: Mapping[str, float] = field(default_factory=dict)
     usual: int = 40
+    told: int = 0
     solves: bool = False
 
     def refusal(self, problem: Problem) -> str:

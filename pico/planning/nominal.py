@@ -149,7 +149,8 @@ def _nominal(setup: Setup, seen: Observation, goal: Goal, former: Sequence[Goal]
     for n in np.flatnonzero(flat):
         fall[n, n], shift[n], spread[n, n] = bench.along(*list(goal.tunables.items())[n], len(own))
     depth = 1.0 if goal.aim == "reach" else _depth(setup, goal, min(one.power for one in own))
-    return Nominal(_rows(fall), _rows(spread), depth, tuple(shift.tolist()) if flat.any() else ())
+    slopes = bench.slopes([*(goal.reach or {})], goal.tunables)
+    return Nominal(_rows(fall), _rows(spread), depth, tuple(shift.tolist()) if flat.any() else (), _rows(slopes))
 
 
 def _across(goal: Goal, shape: Array, move: Array, scatter: Array) -> tuple[Array, Array, Array, NDArray[np.bool_]]:

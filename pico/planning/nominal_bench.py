@@ -4,7 +4,7 @@ changes with tunables and with how parts are put down."""
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -137,6 +137,15 @@ class NominalBench:
             scatter_of(self.thought.setup, n).x for n in (_part(address), *(p.component for p in self.places[:many]))
         ]
         return bend, shift, sum(x**2 for x in scatter)
+
+    def slopes(self, wanted: Sequence[str], addresses: Iterable[str]) -> Array:
+        """Return by how much numbers, a row each, change with a unit of tunables; (0, 0) where one is not told."""
+        import numpy as np
+
+        places = [name.replace(".fit.", ".centroid.") for name in wanted]  # a Gaussian's middle is its centroid
+        columns = [self.thought.by_tunable(places, address) for address in addresses] if wanted else []
+        known = [column for column in columns if column is not None]
+        return np.stack(known, axis=1) if known and len(known) == len(columns) else np.zeros((0, 0))
 
     def scattered(self) -> Array:
         """Return by how much the offsets change with one standard deviation of each placement, one a column; of parts

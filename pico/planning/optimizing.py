@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from pico.model.setup import EXPOSURE, Setup
 from pico.model.vocabulary import measured_in
 from pico.motion.types import Motion
 from pico.optimize.registry import algorithm_file
+from pico.planning.checks.emission import lets_out
 from pico.planning.checks.interlocks import LAMP
 from pico.planning.foreseen import foreseen
 from pico.planning.goal_light import goal_light
@@ -103,7 +104,9 @@ class _Block:
             for address in [a for a in self.now if a not in lasting and a not in during]:
                 self._set_back(address, "as it was before that")
             for need in during.values():
-                self._set(need, f"while {turn.one.name} is {'measured' if turn.verify else 'sought'}", self.arms)
+                own = [op.id for op in self.before if op.component == need.component]
+                waits = self.arms if self._lights(need) else own
+                self._set(need, f"while {turn.one.name} is {'measured' if turn.verify else 'sought'}", waits)
             (self._verify if turn.verify else self._optimize)(turn)
         for address in [*self.now]:
             self._set_back(address, f"as it was before {names}")
@@ -130,6 +133,12 @@ class _Block:
             live = part.values.get(tunable) if part is not None else None
             known = live.value if live is not None and live.status == "known" else None
             yield Need(component=component, tunable=tunable, value=value, live=known)
+
+    def _lights(self, need: Need) -> bool:
+        """Whether setting what is needed may bring other light to where arms work: beams are shut then, but where the
+        Lab leaves them open."""
+        made = setting(self.setup, need, need.live, need.value, (), "")
+        return self.setup.lab.policy.open_beam or need.tunable == LAMP or lets_out(self.setup, made)
 
     def _set(self, need: Need, text: str, waits: Sequence[str]) -> None:
         """Set what is needed, where it is not so already."""
@@ -167,14 +176,13 @@ class _Block:
         looked = {a for stage in turn.stages for found in (stage.goal.looks or {}).values() for a in found}
         measured = {component for component, _ in measured_in(setup, turn.texts)}
         detectors = sorted(measured | {a.partition(".")[0] for a in looked})
-        reckoned = sum(seconds(setup, stage.goal, stage.algorithm) for stage in turn.stages)
         made = self._add(Operation(
             id=new_id(), primitive="optimize", component=parts[0], reason=turn.reason,
             arguments={
                 "from": {**only, **begin}, "specimens": specimens(setup), **arguments_of(setup, turn.one, turn.first),
             },
             after=_once(*self.arms, *own, *self.latest.values()),
-            seconds=reckoned if turn.took is None else turn.took,
+            seconds=reckoned(setup, turn.stages) if turn.took is None else turn.took,
             resources=tuple(dict.fromkeys((*begin, *sorted(looked), *parts, *detectors, *sorted(setup.lab.robots)))),
         ))  # fmt: skip
         self.made_of[made] = turn
@@ -267,15 +275,21 @@ def specimens(setup: Setup) -> Mapping[str, str]:
     return {name: part.serial for name, part in sorted(setup.lab.inventory.items()) if part.serial}
 
 
-def seconds(setup: Setup, goal: Goal, algorithm: str) -> float:
+def reckoned(setup: Setup, stages: Iterable[Sought]) -> float:
+    """Return what optimizations take [s] one after the other, with what is known of each before it begins."""
+    return sum(seconds(setup, one.goal, one.algorithm, told=bool(one.known and one.known.slopes)) for one in stages)
+
+
+def seconds(setup: Setup, goal: Goal, algorithm: str, *, told: bool = False) -> float:
     """Return what an optimization takes [s] as a plan reckons it: the usual number of measurements, each after a step
-    of an eighth of the range of the slowest tunable."""
+    of an eighth of the range of the slowest tunable. `told`: how readings follow the tunables is known before."""
     steps = []
     for address, (low, high) in goal.tunables.items():
         component, _, tunable = address.partition(".")
         kind = setup.type_of(component).tunables[tunable]
         steps.append(set_seconds(kind, low, low + (high - low) / 8))
-    usual = algorithm_file(algorithm).DECLARATION.usual
+    declared = algorithm_file(algorithm).DECLARATION
+    usual = (declared.told if told else 0) or declared.usual
     many = max(1, len(goal.looks or ())) * len(measured_in(setup, goal.texts))
     return min(goal.budget.seconds, min(usual, goal.budget.measurements) * (max(steps) + many * TAKES))
 

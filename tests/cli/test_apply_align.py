@@ -31,6 +31,12 @@ def test_what_is_not_aligned_is_sought_at_the_end_and_what_that_needs_is_set_bac
     (sought,) = [op for op in plan["operations"] if op["primitive"] == "optimize"]
     before = {by_id[e]["component"] for e in sought["after"]}
     assert {"arm1", "laser", "p1", "hwp", "cam"} <= before, "arms are parked, the shutter is open, the beam is dimmed"
+    ends = {op["component"]: op["start"] + op["seconds"] for op in plan["operations"] if op["id"] in sought["after"]}
+    assert max(ends["hwp"], ends["cam"]) < ends["arm1"], "what the arm leaves alone is set while it works"
+    assert ends["laser"] > ends["arm1"], "light comes when it is parked"
+    (left, _), (_, up) = sought["arguments"]["nominal"]["slopes"]
+    by_lens = pytest.approx(1000 * 340 / 200, rel=0.02)  # um per mm: from the lens to the camera, by its focal length
+    assert abs(left) == by_lens and abs(up) == by_lens
     back = [op for op in plan["operations"] if op["start"] >= sought["start"] + sought["seconds"] - 1e-6]
     assert {op["component"]: op["arguments"]["to"] for op in back} == {"p1": 1.0, "hwp": 22.75, "cam": 10.0}
     answer = pico("apply", "E3-2", "--align", "--yes")

@@ -121,6 +121,43 @@ def test_newton_needs_five_readings_of_what_is_linear(x: float, y: float, gain: 
     assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 5
 
 
+def told(problem: Problem, slopes: np.ndarray) -> Problem:
+    """The same, with a model that says how the readings follow the tunables."""
+    return replace(problem, nominal=replace(nominal(2), slopes=tuple(map(tuple, slopes.tolist()))))
+
+
+@given(st.floats(-1.5, 2.5), st.floats(-1.5, 2.5), st.floats(0.9, 1.1))
+def test_newton_needs_few_readings_where_a_model_tells_the_slopes(x: float, y: float, like: float) -> None:
+    slopes = np.array([[800.0, 30.0], [-20.0, 700.0]])
+    problem = Problem(VARIABLES[:2], OUTPUTS, "reach", {"cam.x": 3.0}, dict.fromkeys(OUTPUTS, 5.0))
+
+    def read(p: Point) -> dict[str, float]:
+        left, up = slopes @ [p["m0.tip"] - x, p["m1.tip"] - y]
+        return {"cam.x": 3 + left, "cam.y": up}
+
+    exactly = driven(made("centroid_newton", told(problem, slopes)), read)
+    nearly = driven(made("centroid_newton", told(problem, like * slopes)), read)
+    for tried, most in ((exactly, 2), (nearly, 4)):
+        assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= most
+
+
+@pytest.mark.parametrize("wrong", [-1.0, 0.2, [[0.0, 1.0], [1.0, 0.0]]], ids=["mirrored", "weak", "swapped"])
+def test_newton_measures_the_slopes_where_a_model_is_wrong(wrong: float | list[list[float]]) -> None:
+    slopes = np.array([[800.0, 30.0], [-20.0, 700.0]])
+    problem = Problem(VARIABLES[:2], OUTPUTS, "reach", {}, dict.fromkeys(OUTPUTS, 5.0))
+    believed = slopes @ np.array(wrong) if isinstance(wrong, list) else wrong * slopes
+
+    def read(p: Point) -> dict[str, float]:
+        x, y = p["m0.tip"], p["m1.tip"]
+        if max(abs(x), abs(y)) > 1.5:
+            return {}  # beyond the sensor
+        left, up = slopes @ [x - 0.45, y - 0.6]
+        return {"cam.x": left, "cam.y": up}
+
+    tried = driven(made("centroid_newton", told(problem, believed)), read)
+    assert problem.met({**tried[-1], **read(tried[-1])}) and len(tried) <= 8
+
+
 @settings(deadline=None)
 @given(st.floats(-80, 80), st.floats(0.1, 10), st.floats(1e-6, 1e-2), st.sampled_from(["minimize", "maximize"]))
 def test_malus_is_solved_by_few_readings(null: float, size: float, floor: float, aim: str) -> None:

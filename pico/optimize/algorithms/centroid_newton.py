@@ -1,4 +1,5 @@
-"""Newton's method on a vector of readings, its Jacobian measured first and then kept up by Broyden's rule.
+"""Newton's method on a vector of readings, its Jacobian kept up by Broyden's rule. It begins with that of the model of
+the light; where there is none, or where it leads no nearer, it is measured first.
 
 C. G. Broyden, Math. Comp. 19, 577 (1965). As many readings as tunables, or more: then in the least squares.
 """
@@ -16,9 +17,12 @@ from pico.optimize.stepwise import Result, Steps, Stepwise
 DECLARATION = Declaration(
     what="Newton's method on readings that follow the tunables nearly linearly, such as a centroid",
     aims=("reach",), variables=(1, 6), outputs=(1, 12), parameters={"probe": 0.2, "most": 30}, usual=6,
+    told=3,
 )  # fmt: skip
 """`probe`: the first step of each tunable, as a share of how far its best value is likely to be; `most`: steps."""
 REACHED = "the goal is reached"
+_NEARER = 0.5
+"""Of how far off it was, what a first step by the model is to leave at most for the model to be believed."""
 _IN_VAIN = 5
 _SMALLEST = 1e-3
 Array = NDArray[np.float64]
@@ -30,26 +34,32 @@ def make(problem: Problem, parameters: Mapping[str, float], seed: int) -> Stepwi
 
 
 def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
-    names = [v.name for v in problem.variables]
     here = yield problem.start
     if not problem.measured(here):
         return "there is nothing to see where it began"
     if _surely(problem, here):
         return REACHED
-    columns: list[Array] = []
-    for variable in problem.variables:
-        there, why = yield from _probe(problem, variable, here, parameters["probe"] * variable.likely)
-        if why:
-            return why
-        columns.append(
-            (_values(problem, there) - _values(problem, here)) / (there[variable.name] - here[variable.name])
-        )
-        here = there if problem.cost(there) < problem.cost(here) else here
-    jacobian, best, vain, reach = np.stack(columns, axis=1), here, 0, 1.0
+    jacobian = _told(problem)
+    if jacobian is not None:
+        there = yield _stepped(problem, jacobian, here)
+        if problem.measured(there) and _surely(problem, there):
+            return REACHED
+        nearer = problem.measured(there) and problem.cost(there) < _NEARER * problem.cost(here)
+        jacobian, here = (_kept_up(problem, jacobian, here, there), there) if nearer else (None, here)
+    if jacobian is None:
+        columns: list[Array] = []
+        for variable in problem.variables:
+            there, why = yield from _probe(problem, variable, here, parameters["probe"] * variable.likely)
+            if why:
+                return why
+            columns.append(
+                (_values(problem, there) - _values(problem, here)) / (there[variable.name] - here[variable.name])
+            )
+            here = there if problem.cost(there) < problem.cost(here) else here
+        jacobian = np.stack(columns, axis=1)
+    best, vain, reach = here, 0, 1.0
     for _ in range(int(parameters["most"])):
-        off = _values(problem, here) - _target(problem)
-        step = -np.linalg.lstsq(jacobian, off, rcond=1e-6)[0] * reach
-        there = yield {n: here[n] + float(s) for n, s in zip(names, step, strict=True)}
+        there = yield _stepped(problem, jacobian, here, reach)
         better = False
         if problem.measured(there):
             if _surely(problem, there):
@@ -78,6 +88,20 @@ def _probe(
             return there, REACHED if _surely(problem, there) else ""
         step = -step / 2 if step > 0 else -step
     return here, f"{name} cannot be moved without losing the light"
+
+
+def _told(problem: Problem) -> Array | None:
+    """Return the Jacobian that the model of the light tells, a row an output; None where it tells none."""
+    slopes = np.array(problem.nominal.slopes if problem.nominal else (), dtype=np.float64)
+    fits = slopes.shape == (len(problem.outputs), len(problem.variables))
+    return slopes if fits and bool(np.isfinite(slopes).all() and slopes.any(axis=0).all()) else None
+
+
+def _stepped(problem: Problem, jacobian: Array, here: Result, reach: float = 1.0) -> Point:
+    """Return where a Jacobian has the target, or a share (`reach`) of the way there."""
+    off = _values(problem, here) - _target(problem)
+    step = -np.linalg.lstsq(jacobian, off, rcond=1e-6)[0] * reach
+    return {v.name: here[v.name] + float(s) for v, s in zip(problem.variables, step, strict=True)}
 
 
 def _kept_up(problem: Problem, jacobian: Array, here: Result, there: Result) -> Array:
