@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
+from importlib import import_module
 from importlib.metadata import EntryPoint, entry_points
 from importlib.util import find_spec
 from typing import Any
@@ -59,6 +60,8 @@ class Buses:
             text = f"{name} needs `{module}`, which is not installed"
             raise PicoError(error("missing-extra", text, hint=install, address=name))
         require_fit(name, entry, found)
+        if found.needs:  # seconds of some libraries, which are no answer's delay
+            import_module(found.needs[0])
         link = found.link or f"{entry.driver} of {name}"
         key = (link, *(str(entry.address.get(part, "")) for part in found.bus))
         if key not in self._buses:
@@ -86,7 +89,7 @@ def require_fit(name: str, entry: DeviceEntry, found: Driver) -> None:
     wrong += [
         error("device", f"the address of {name} has no `{key}`", hint=f"`{key}` is {found.address[key]}", address=name)
         for key in found.bus
-        if key not in entry.address
+        if key not in entry.address and key != "host"  # what has none is on a serial port
     ]
     if wrong:
         raise PicoError(wrong)

@@ -1,0 +1,75 @@
+"""Devices for the contract: an entry of each driver, what stands behind its emulator, what reads and what moves it."""
+
+from __future__ import annotations
+
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from pico.model.wiring import DeviceEntry
+
+
+@dataclass(frozen=True)
+class Case:
+    """A driver under contract. `reads` is asked again and again, and is `is_` what it reads; `moves` moves to another
+    place, and what is `moved` then is behind it; `beyond` asks for what its limits don't allow."""
+
+    entry: DeviceEntry
+    at_first: dict[str, Any]
+    reads: Callable[[Any], Awaitable[Any]]
+    is_: Any
+    begins: Callable[[Any], Awaitable[Any]] | None = None
+    moves: Callable[[Any], Awaitable[Any]] | None = None
+    moved: tuple[str, Any] = ("", None)
+    beyond: Callable[[Any], Awaitable[Any]] | None = None
+    stuck: float | None = None
+    tells: bool = True
+    """Whether it raises where it can't read; a safety input reads unsafe instead."""
+    extra: dict[str, Any] = field(default_factory=dict)
+
+
+async def _power(meter: Any) -> float:
+    return float((await meter.power())[0])
+
+
+async def _safe(safety: Any) -> bool | None:
+    found: bool | None = (await safety.read()).safe
+    return found
+
+
+WHO = {"vendor": "Acme", "model": "M1", "serial": "S42", "firmware": "1.2"}
+CASES = {
+    "elliptec.rotator": Case(
+        DeviceEntry(driver="elliptec.rotator", emulator="elliptec", address={"port": "", "bus": "2"},
+                    identity={"serial": "11400517"}, limits={"angle": (0, 180)}),
+        {"angle": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
+        moves=lambda axis: axis.move_to(170.0), moved=("angle", 170.0), beyond=lambda axis: axis.move_to(181.0),
+        stuck=80.0),
+    "zaber.stage": Case(
+        DeviceEntry(driver="zaber.stage", emulator="zaber", address={"host": "", "port": "0", "device": 1},
+                    identity={"serial": "12345"}, limits={"position": (0, 50)},
+                    settings={"counts_per_unit": 20997.375, "emulated_speed": 60.0}),
+        {"position": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
+        moves=lambda axis: axis.move_to(40.0), moved=("position", 40.0), beyond=lambda axis: axis.move_to(51.0),
+        stuck=20.0),
+    "scpi.meter": Case(
+        DeviceEntry(driver="scpi.meter", emulator="scpi.meter", address={"visa": ""}, identity=WHO,
+                    limits={"wavelength": (400, 700)}),
+        {"power": 0.0012}, _power, 0.0012, beyond=lambda meter: meter.power(wavelength=900.0)),
+    "pymeasure.pm100": Case(
+        DeviceEntry(driver="pymeasure.pm100", emulator="scpi.meter", address={"visa": ""}, identity=WHO,
+                    limits={"wavelength": (400, 700)}),
+        {"power": 0.0012}, _power, 0.0012, beyond=lambda meter: meter.power(wavelength=900.0)),
+    "scpi.laser": Case(
+        DeviceEntry(driver="scpi.laser", emulator="scpi.laser", address={"visa": ""}, identity=WHO),
+        {"emission": False}, lambda laser: laser.emitting(), False,
+        moves=lambda laser: laser.emit(True), moved=("emission", True)),
+    "scpi.shutter": Case(
+        DeviceEntry(driver="scpi.shutter", emulator="scpi.contacts", address={"visa": "", "channel": 3, "relay": 1},
+                    identity=WHO),
+        {"open": False}, lambda shutter: shutter.is_open(), False,
+        moves=lambda shutter: shutter.open(True), moved=("open", True)),
+    "scpi.safety": Case(
+        DeviceEntry(driver="scpi.safety", emulator="scpi.contacts", address={"visa": "", "channel": 4}, identity=WHO),
+        {"contact": True}, _safe, True, tells=False),
+}  # fmt: skip
