@@ -49,7 +49,11 @@ class Alone:
 
 
 class Running(Protocol):
-    """An emulator at work: `address` is what leads to it instead of an entry's own; `close` ends it and its threads."""
+    """An emulator at work: `address` is what leads to it instead of an entry's own; `identity` is who it is, where it
+    can't be whom the lab names; `close` ends it and its threads."""
+
+    @property
+    def identity(self) -> Mapping[Any, str]: ...
 
     @property
     def address(self) -> Mapping[str, str | int]: ...

@@ -1,0 +1,77 @@
+"""Cameras through the vendors' libraries, which emulate them: pictures of ours come out as they went in."""
+
+from __future__ import annotations
+
+import asyncio
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pico.diagnostics import PicoError
+from pico.drivers.registry import Buses
+from pico.emulators.behind import Alone
+from pico.emulators.registry import EmulatedBench
+from pico.model.wiring import DeviceEntry
+
+
+def picture(seed: int, bits: int = 8) -> np.ndarray:
+    kind = np.uint8 if bits == 8 else np.uint16
+    return np.random.default_rng(seed).integers(0, 2**bits, (120, 160), kind)
+
+
+ENTRY = DeviceEntry(driver="basler.camera", emulator="basler", address={"serial": "40012345"},
+                    identity={"serial": "40012345"}, limits={"exposure": (0.1, 50)})  # fmt: skip
+
+
+async def taken(camera: object, wanted: np.ndarray) -> bool:
+    """Return whether the picture comes out within some tries: the emulation takes up a new file after a while."""
+    for _ in range(40):
+        found = await camera.grab(exposure=1.0)  # type: ignore[attr-defined]
+        if np.array_equal(found, wanted):
+            return True
+    return False
+
+
+def test_a_basler_camera_shows_what_is_behind_it_and_then_what_is_behind_it_then() -> None:
+    behind = Alone({"frame": picture(1)})
+    bench = EmulatedBench({"cam": ENTRY}, lambda name, entry: behind)
+    buses = Buses()
+    camera = buses.opened("cam", bench.entries["cam"])
+
+    async def go() -> None:
+        assert (await camera.connect()).serial == bench.entries["cam"].address["serial"]
+        assert await taken(camera, picture(1))
+        behind.write("frame", picture(2))
+        assert await taken(camera, picture(2))
+        with pytest.raises(PicoError) as beyond:
+            await camera.grab(exposure=60.0)  # type: ignore[attr-defined]
+        assert beyond.value.diagnostics[0].code == "device-limit"
+        await buses.close()
+        assert await taken(camera, picture(2)), "it is opened again"
+        await buses.close()
+
+    try:
+        asyncio.run(go())
+    finally:
+        bench.close()
+
+
+def test_another_camera_than_the_lab_names_is_refused() -> None:
+    bench = EmulatedBench({"cam": ENTRY}, lambda name, entry: Alone())
+    buses = Buses()
+    camera = buses.opened("cam", replace(bench.entries["cam"], identity={"serial": "40012345"}))
+    try:
+        with pytest.raises(PicoError) as other:
+            asyncio.run(camera.connect())
+        assert other.value.diagnostics[0].code == "device-identity"
+    finally:
+        asyncio.run(buses.close())
+        bench.close()
+
+
+def test_a_camera_that_is_not_there_is_told() -> None:
+    camera = Buses().opened("cam", replace(ENTRY, address={"serial": "nobody"}))
+    with pytest.raises(PicoError) as lost:
+        asyncio.run(camera.connect())
+    assert lost.value.diagnostics[0].code == "device-lost" and lost.value.diagnostics[0].address == "cam"
