@@ -1,8 +1,9 @@
 """Cameras behind a plain server of frames over TCP: whatever grabs pictures where PICO has no driver for it, and what
 an emulated bench has.
 
-A request is a line of JSON, `{"do": "identify"}` or `{"do": "grab", "exposure": 2.5, "gain": 0}` (ms, dB; each may be
-missing); the answer is a line of JSON, of a frame with its `shape` and `dtype` and then its bytes, row by row.
+A request is a line of JSON, `{"do": "identify", "id": 7}` or `{"do": "grab", "id": 8, "exposure": 2.5, "gain": 0}` (ms,
+dB; each may be missing); the answer is a line of JSON with the same `id`, of a frame with its `shape` and `dtype` and
+then its bytes, row by row. An answer that comes twice, or too late, is none to the next request.
 """
 
 from __future__ import annotations
@@ -32,13 +33,17 @@ class FrameLink:
     def __init__(self, host: str, port: int) -> None:
         self._socket = socket.create_connection((host, port), timeout=_GRAB)
         self._file = self._socket.makefile("rb")
+        self._id = 0
 
     def ask(self, **request: Any) -> tuple[dict[str, Any], bytes]:
         """Return the answer to a request, and the bytes that come with it."""
-        self._socket.sendall(json.dumps(request).encode() + b"\n")
+        self._id += 1
+        self._socket.sendall(json.dumps({**request, "id": self._id}).encode() + b"\n")
         said = json.loads(self._file.readline(65536) or "null")
-        if not isinstance(said, dict) or "error" in said:
-            raise ValueError(said["error"] if isinstance(said, dict) else "it hung up")
+        if not isinstance(said, dict):
+            raise ValueError("it hung up")
+        if said.get("id") != self._id or "error" in said:
+            raise ValueError(said.get("error", f"it answers request {said.get('id')}, and {self._id} was asked"))
         size = int(said.get("bytes", 0))
         if not 0 <= size <= _LARGEST:
             raise ValueError(f"a frame of {size} bytes")

@@ -1,7 +1,9 @@
 """What is on or off behind a box that takes lines of text over TCP, such as a microcontroller of a lab's own: shutters
 with a sensor, lasers that report themselves, lamps, safety inputs.
 
-`read NAME` is answered by `1`, `0`, or `?` where that is not known; `set NAME 1` or `set NAME 0` by what is read then.
+A question begins with a number, and so does its answer: one that comes twice, or too late, is none to the next one.
+`7 read NAME` is answered by `7 1`, `7 0`, or `7 ?` where that is not known; `8 set NAME 1` or `8 set NAME 0` by what is
+read then.
 A shutter `NAME` is driven as such, and read from its sensor, `NAME.sensor`; a safety input is safe where it reads `1`.
 """
 
@@ -31,14 +33,19 @@ class SwitchLink:
     def __init__(self, host: str, port: int) -> None:
         self._socket = socket.create_connection((host, port), timeout=_REPLY)
         self._file = self._socket.makefile("rb")
+        self._number = 0
 
     def ask(self, words: str) -> str:
         """Return the answer to a line."""
-        self._socket.sendall(words.encode() + b"\n")
+        self._number += 1
+        self._socket.sendall(f"{self._number} {words}\n".encode())
         said = self._file.readline(256)
         if not said.endswith(b"\n"):
             raise ValueError("it hung up")
-        return said.decode("utf-8", "replace").strip()
+        number, _, answer = said.decode("utf-8", "replace").strip().partition(" ")
+        if number != str(self._number):
+            raise ValueError(f"it answers {said[:40]!r}, and question {self._number} was asked")
+        return answer
 
     def state(self, words: str) -> bool | None:
         """Return the state that a line is answered by; None where the box does not know."""

@@ -49,11 +49,8 @@ class Alone:
 
 
 class Running(Protocol):
-    """An emulator at work: `address` is what leads to it instead of an entry's own; `identity` is who it is, where it
-    can't be whom the lab names; `close` ends it and its threads."""
-
-    @property
-    def identity(self) -> Mapping[Any, str]: ...
+    """An emulator at work: `address` is what leads to it instead of an entry's own; `close` ends it and its threads.
+    One that can't be whom the lab names has an `identity` (a mapping), too: who it is."""
 
     @property
     def address(self) -> Mapping[str, str | int]: ...

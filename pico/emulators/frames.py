@@ -28,21 +28,21 @@ class Frames:
     def _answer(self, line: bytes) -> bytes:
         try:
             asked: dict[str, Any] = json.loads(line)
-            do = asked.get("do")
+            do, said = asked.get("do"), {"id": asked.get("id")}
         except (ValueError, AttributeError):
-            do = None
+            do, said = None, {}
         if do == "identify":
-            return _line({"vendor": "PICO", "model": "frames", "serial": self._serial, "firmware": "1"})
+            return _line({**said, "vendor": "PICO", "model": "frames", "serial": self._serial, "firmware": "1"})
         if do != "grab":
-            return _line({"error": "it knows `identify` and `grab`"})
+            return _line({**said, "error": "it knows `identify` and `grab`"})
         for key in ("exposure", "gain"):
             if key in asked:
                 self._behind.write(key, asked[key])
         picture = self._behind.read("frame")
         if picture is None:
-            return _line({"error": "there is no picture"})
+            return _line({**said, "error": "there is no picture"})
         data: bytes = picture.tobytes()
-        about = {"shape": list(picture.shape), "dtype": picture.dtype.name, "bytes": len(data)}
+        about = {**said, "shape": list(picture.shape), "dtype": picture.dtype.name, "bytes": len(data)}
         return _line(about) + data
 
 

@@ -41,7 +41,7 @@ class EmulatedBench:
                 started = emulator(name[0]).started({n: (entry, behind(n, entry)) for n, entry in together.items()})
                 self._running.append(started)
                 for n, entry in together.items():
-                    who = {key: said for key, said in started.identity.items() if key in entry.identity}
+                    who = {key: said for key, said in getattr(started, "identity", {}).items() if key in entry.identity}
                     address = {**entry.address, **started.address}
                     self.entries[n] = replace(entry, address=address, identity={**entry.identity, **who})
         except BaseException:

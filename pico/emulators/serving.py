@@ -6,7 +6,7 @@ import os
 import selectors
 import socket
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
@@ -27,8 +27,6 @@ class Conversation(Protocol):
 
 
 class _Served:
-    identity: Mapping[str, str] = {}
-
     def __init__(self) -> None:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, daemon=True, name="pico-emulator")

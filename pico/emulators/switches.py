@@ -22,10 +22,13 @@ class Switches:
     def heard(self, data: bytes) -> bytes:
         lines = (self._rest + data).split(b"\n")
         self._rest = lines.pop()
-        return b"".join(self._answer(line.decode("utf-8", "replace").split()).encode() + b"\n" for line in lines)
+        return "".join(self._numbered(line.decode("utf-8", "replace").split()) for line in lines).encode()
 
     def due(self) -> bytes:
         return b""
+
+    def _numbered(self, words: list[str]) -> str:
+        return f"{' '.join(words[:1])} {self._answer(words[1:])}\n"
 
     def _answer(self, words: list[str]) -> str:
         match words:

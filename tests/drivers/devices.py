@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Awaitable, Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from pico.model.wiring import DeviceEntry
 
@@ -23,9 +25,10 @@ class Case:
     moved: tuple[str, Any] = ("", None)
     beyond: Callable[[Any], Awaitable[Any]] | None = None
     stuck: float | None = None
+    other: Any = None
+    """Another value of the same, that the world may come to have meanwhile."""
     tells: bool = True
     """Whether it raises where it can't read; a safety input reads unsafe instead."""
-    extra: dict[str, Any] = field(default_factory=dict)
 
 
 async def _power(meter: Any) -> float:
@@ -37,6 +40,19 @@ async def _safe(safety: Any) -> bool | None:
     return found
 
 
+async def _sum(camera: Any) -> int:
+    return int((await camera.grab()).sum())
+
+
+def _bright(pixels: int) -> Any:
+    return np.full((4, 6), pixels, np.uint8)
+
+
+def _box(driver: str) -> DeviceEntry:
+    address: dict[str, str | int] = {"host": "", "port": 0, "name": "s1"}
+    return DeviceEntry(driver=driver, emulator="switches", address=address, identity={"serial": "7"})
+
+
 WHO = {"vendor": "Acme", "model": "M1", "serial": "S42", "firmware": "1.2"}
 CASES = {
     "elliptec.rotator": Case(
@@ -44,32 +60,43 @@ CASES = {
                     identity={"serial": "11400517"}, limits={"angle": (0, 180)}),
         {"angle": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
         moves=lambda axis: axis.move_to(170.0), moved=("angle", 170.0), beyond=lambda axis: axis.move_to(181.0),
-        stuck=80.0),
+        stuck=80.0, other=30.0),
     "zaber.stage": Case(
         DeviceEntry(driver="zaber.stage", emulator="zaber", address={"host": "", "port": "0", "device": 1},
                     identity={"serial": "12345"}, limits={"position": (0, 50)},
                     settings={"counts_per_unit": 20997.375, "emulated_speed": 60.0}),
         {"position": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
         moves=lambda axis: axis.move_to(40.0), moved=("position", 40.0), beyond=lambda axis: axis.move_to(51.0),
-        stuck=20.0),
+        stuck=20.0, other=10.0),
     "scpi.meter": Case(
         DeviceEntry(driver="scpi.meter", emulator="scpi.meter", address={"visa": ""}, identity=WHO,
                     limits={"wavelength": (400, 700)}),
-        {"power": 0.0012}, _power, 0.0012, beyond=lambda meter: meter.power(wavelength=900.0)),
+        {"power": 0.0012}, _power, 0.0012, other=0.0034, beyond=lambda meter: meter.power(wavelength=900.0)),
     "pymeasure.pm100": Case(
         DeviceEntry(driver="pymeasure.pm100", emulator="scpi.meter", address={"visa": ""}, identity=WHO,
                     limits={"wavelength": (400, 700)}),
-        {"power": 0.0012}, _power, 0.0012, beyond=lambda meter: meter.power(wavelength=900.0)),
+        {"power": 0.0012}, _power, 0.0012, other=0.0034, beyond=lambda meter: meter.power(wavelength=900.0)),
     "scpi.laser": Case(
         DeviceEntry(driver="scpi.laser", emulator="scpi.laser", address={"visa": ""}, identity=WHO),
-        {"emission": False}, lambda laser: laser.emitting(), False,
+        {"emission": False}, lambda laser: laser.emitting(), False, other=True,
         moves=lambda laser: laser.emit(True), moved=("emission", True)),
     "scpi.shutter": Case(
         DeviceEntry(driver="scpi.shutter", emulator="scpi.contacts", address={"visa": "", "channel": 3, "relay": 1},
                     identity=WHO),
-        {"open": False}, lambda shutter: shutter.is_open(), False,
+        {"open": False}, lambda shutter: shutter.is_open(), False, other=True,
         moves=lambda shutter: shutter.open(True), moved=("open", True)),
     "scpi.safety": Case(
         DeviceEntry(driver="scpi.safety", emulator="scpi.contacts", address={"visa": "", "channel": 4}, identity=WHO),
-        {"contact": True}, _safe, True, tells=False),
+        {"contact": True}, _safe, True, other=False, tells=False),
+    "switches.laser": Case(
+        _box("switches.laser"), {"emission": False}, lambda laser: laser.emitting(), False, other=True,
+        moves=lambda laser: laser.emit(True), moved=("emission", True)),
+    "switches.shutter": Case(
+        _box("switches.shutter"), {"open": False}, lambda shutter: shutter.is_open(), False, other=True,
+        moves=lambda shutter: shutter.open(True), moved=("open", True)),
+    "switches.input": Case(_box("switches.input"), {"safe": True}, _safe, True, other=False),
+    "frames.camera": Case(
+        DeviceEntry(driver="frames.camera", emulator="frames", address={"host": "", "port": 0},
+                    identity={"serial": "7"}),
+        {"frame": _bright(3)}, _sum, 72, other=_bright(5)),
 }  # fmt: skip
