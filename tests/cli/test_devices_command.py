@@ -76,7 +76,7 @@ def test_who_does_not_answer_is_named_with_exit_code_1(lab: Path, pico: Pico) ->
     answer = pico("-C", str(lab), "devices", "check", "p1_mount")
     assert answer.code == 1 and "p1_mount failed when it was asked to say who it is" in answer.err
     unknown = pico("-C", str(lab), "devices", "check", "p1")
-    assert unknown.code == 1 and "did you mean `p1_mount`" in unknown.err
+    assert unknown.code == 1 and "known: `p1_mount`, `p2_mount`" in unknown.err
 
 
 def test_a_lab_without_devices_says_what_to_add(lab: Path, pico: Pico) -> None:
