@@ -89,6 +89,9 @@ class Maker:
             lambda: f"({self.holds(names, depth + 1)} ? {one()} : {one()})",
             lambda: f"{pick(('sum', 'mean', 'least', 'most'))}({pick(lists)})",
             lambda: f"sqrt(abs({one()}))",
+            lambda: f"mod({one()}, 7) + floor(abs(sin({one()})))",
+            lambda: (lambda own: f"{own}[size({own}) - 1]")(pick(lists)),
+            lambda: f"{pick(lists)}[int(abs(cos({one()})))]",
         )
         return pick(ways)()
 
@@ -192,7 +195,15 @@ class Maker:
     def block(self, names: dict[str, str], depth: int) -> dict[str, Any]:
         way, inner, count = self.draw.randrange(3), dict(names), self.draw.randint(1, 3)
         if way == 0:
-            lists: list[Any] = [[1, 2], {"from": 0, "to": 20, "step": 10}, *self.of_kind(names, "numbers")[:1]]
+            whole = f"2 + floor(abs(cos({self.number(names)})))"
+            lists: list[Any] = [
+                [1, 2],
+                {"from": 0, "to": 20, "step": 10},
+                {"from": self.number(names), "to": 20, "count": whole},
+                {"from": 0, "to": whole, "step": "1"},
+                [1, self.number(names)],
+                *self.of_kind(names, "numbers")[:1],
+            ]
             over = self.fresh("t")
             values = self.draw.choice(lists)
             return {"foreach": {over: values}, "steps": self.steps(inner | {over: "number"}, depth + 1, count)}
@@ -227,6 +238,11 @@ MISTAKES: dict[str, tuple[str, Any]] = {
     "a number for a condition": ("expression", {"if": "1 + 2", "then": [{"wait": 1}]}),
     "a list for a number": ("expression", {"wait": "[1, 2]"}),
     "a name that nobody gave": ("expression", {"wait": "nobody + 1"}),
+    "a text for an index": ("expression", {"wait": "[1, 2]['a']"}),
+    "a range of a text": (
+        "expression",
+        {"foreach": {"k": {"from": 0, "to": "'a'", "step": 1}}, "steps": [{"wait": 1}]},
+    ),
     "a sum of what does not add": ("expression", {"wait": "1 + (2 < 3)"}),
     "an expression cut off": ("expression", {"wait": "(1 + "}),
     "a function that there is not": ("expression", {"wait": "twice(3)"}),
