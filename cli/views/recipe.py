@@ -10,12 +10,16 @@ from pico.model.record import as_json
 from .style import count, paint, seconds, shorten, wide, wrap
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from pico.recipes.ahead import Foreseen
     from pico.recipes.recipe import Recipe
     from pico.recipes.running import Outcome
     from pico.recipes.walking import Entered
 
 
+MOST_RUNS = 6
+"""So many of its runs are named after a recipe."""
 _TURN = re.compile(r"\[\d+\]")
 """In the path of a step: which turn of a loop."""
 
@@ -27,7 +31,7 @@ def text(recipe: Recipe, ahead: Foreseen) -> str:
         if (place := (_TURN.sub("[]", entered.path), entered.turn)) in shown:
             continue
         shown.add(place)
-        took = f"  {seconds(takes)}" if takes else ""
+        took = f"  {seconds(takes)}" if takes else "" if entered.known else "  depends on a measurement"
         lines.append(shorten(line(entered), wide() - len(took)) + paint("dim", took))
     return "\n".join(lines)
 
@@ -45,33 +49,55 @@ def _alone(recipe: Recipe) -> list[str]:
 
 def line(entered: Entered) -> str:
     """Return a step in a line: its path, what it does, in which turn of a loop with which values."""
-    turn = ""
-    if entered.turn:
-        values = ", ".join(f"{name} = {_short(value)}" for name, value in entered.values.items())
+    from pico.recipes.recipe import Each, Let, Scan
+
+    title, values = entered.said, dict(entered.values)
+    if entered.turn and isinstance(entered.step, Each | Scan):
+        title = "foreach" if isinstance(entered.step, Each) else "scan"
+    elif isinstance(entered.step, Let) and entered.known:
+        title = f"let {_listed(values)}" if values else title
+        values = {}
+    after = ""
+    if (holds := values.pop("holds", None)) is not None:
+        after = _listed(values) + (": " if values else "") + ("yes" if holds else "no")
+    elif entered.turn:
         total = f"/{entered.turn[1]}" if entered.turn[1] else ""
-        turn = paint("cyan", f"  {values}  ({entered.turn[0]}{total})".replace("    (", "  ("))
-    title = "foreach" if entered.turn and entered.values else entered.said
-    return f"{'  ' * (entered.depth + 1)}{paint('dim', entered.path)} {title}{turn}"
+        after = f"{_listed(values)}  ({entered.turn[0]}{total})".strip()
+    return f"{'  ' * (entered.depth + 1)}{paint('dim', entered.path)} {title}" + (
+        paint("cyan", f"  {after}") if after else ""
+    )
+
+
+def _listed(values: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
 
 
 def head(recipe: Recipe, ahead: Foreseen) -> str:
     """Return what a recipe is, how many of its steps are known in advance, and how long they take."""
+    from pico.recipes.recipe import Act, Scan
+
     known = sum(takes is not None for _, takes in ahead.steps)
+    open_ = sum(not e.known and isinstance(e.step, Act | Scan) for e, _ in ahead.steps)
     title = f": {recipe.title}" if recipe.title else ""
-    more = "" if ahead.whole else "; more may follow"
+    depending = f"{count(open_, 'step')} more depend{'s' if open_ == 1 else ''} on a measurement"
+    more = "" if ahead.whole else f"; {depending if open_ else 'more may follow'}"
     said = f"{recipe.name}{title} · {count(known, 'step')} foreseen, about {seconds(ahead.seconds)} on the bench{more}"
     return "\n".join(wrap(said, ""))
 
 
 def _short(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_short, value))}]"
+    if isinstance(value, bool):
+        return str(value).lower()
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def data(recipe: Recipe, ahead: Foreseen) -> dict[str, Any]:
     """Return schema `pico.recipe_ahead/v1`: `recipe`, `digest`, `seconds`, `whole`, `steps` with `path`, `title`,
-    `seconds`, and `diagnostics`."""
+    `known` (it does not depend on a measurement), `seconds`, and `diagnostics`."""
     steps = [
-        {"path": e.path, "title": e.said, **({"seconds": takes} if takes is not None else {})}
+        {"path": e.path, "title": e.said, "known": e.known, **({"seconds": takes} if takes is not None else {})}
         for e, takes in ahead.steps
     ]
     return {
@@ -93,9 +119,12 @@ def outcome(found: Outcome, recipe: Recipe) -> str:
         lines.append(f"The bench is left {', '.join(found.left)}.")
     if found.outcome == "interrupted":
         lines.append("Go on with `pico run --resume`.")
-    if found.runs:
-        more = f", the last of {len(found.runs)} runs on the bench" if len(found.runs) > 1 else ""
-        lines.append(f"`pico runs show {found.runs[-1]}` has what it did{more}.")
+    if len(found.runs) == 1:
+        lines.append(f"`pico runs show {found.runs[0]}` has what it did.")
+    elif found.runs:
+        named = found.runs if len(found.runs) <= MOST_RUNS else (*found.runs[: MOST_RUNS - 2], "...", found.runs[-1])
+        text = f"`pico runs show RUN` has what it did, in {len(found.runs)} runs one after another: {', '.join(named)}"
+        lines += wrap(text, "")
     return "\n".join(lines)
 
 

@@ -46,7 +46,8 @@ class Lights:
 
     def beams(self, revision: str | None = None, *, manifest: bool = False, source: str | None = None) -> Beams:
         """Return where the beams run, with radius, power and polarization: of the bench as it is, or as a revision or
-        the manifest wants it; of one source, or of all. A source that is off or shut is followed as if it shone.
+        the manifest wants it, which leave what they do not say as the bench has it; of one source, or of all. A source
+        that is off or shut is followed as if it shone.
         Raises PicoError."""
         from pico.optics.beam_table import rows, troubles
         from pico.optics.nominal.specimens import uncertain
@@ -185,12 +186,13 @@ class Lights:
         from pico.bench.picturing.contents import places, standing, wanted, with_strangers
         from pico.drawing.beams import standing as upright
 
-        setup = self.folder.setup
-        if revision or manifest:
+        setup, seen = self.folder.setup, self.opened.observe()
+        if revision or manifest:  # what a state does not say stays as the bench has it
             state = self.folder.state_at(revision) if revision else self.folder.state
             goal = self.opened.history.name_of(revision) if revision else "the manifest"
-            return setup, upright(standing(setup, state)), wanted(state), goal
-        seen = self.opened.observe()
+            values = {**seen.known_values}
+            values |= {name: {**values.get(name, {}), **own} for name, own in wanted(state).items()}
+            return setup, upright(standing(setup, state)), values, goal
         setup = with_strangers(setup, seen)
         return setup, upright(places(setup, seen, {})), seen.known_values, "the bench as it is"
 

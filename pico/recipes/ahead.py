@@ -36,7 +36,8 @@ _ANY = "*"
 @dataclass(frozen=True)
 class Foreseen:
     """What is known of a recipe in advance: its steps as they would be begun with the seconds that each takes [s, None
-    where nobody knows], the `seconds` of all, what is impossible; `whole`: no step was left out."""
+    where nobody knows], those that depend on a measurement among them (`known` of them is false), the `seconds` of all,
+    what is impossible; `whole`: no step depends on one, and all were looked at."""
 
     steps: tuple[tuple[Entered, float | None], ...]
     seconds: float
@@ -149,7 +150,7 @@ class _Ahead:
             return {n: values[n] for n in ask.names if n in values and not self.may_differ(n)}
         self.acts += 1
         seconds = self.planned(ask, ask.step, step_file(ask.step.kind))
-        self.steps[-1] = (self.steps[-1][0], seconds)
+        self.steps[-1] = (replace(self.steps[-1][0], known=seconds is not None), seconds)
         return {}
 
     def may_differ(self, name: str) -> bool:

@@ -233,11 +233,3 @@ def paths_of(recipe: Recipe, at: str = "") -> Iterator[str]:
     """Yield the paths of all steps of a recipe, and of those that it calls, without the turns of loops."""
     yield from paths(recipe.steps, at)
     yield from paths(recipe.finally_, f"{at}finally.")
-
-
-def every(steps: Iterable[Step]) -> Iterator[Step]:
-    """Yield steps and those within them, in the order of the text; not those of recipes that are called."""
-    for step in steps:
-        yield step
-        for _, inner in blocks(step):
-            yield from every(inner)

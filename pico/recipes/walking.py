@@ -27,7 +27,7 @@ from pico.recipes.recipe import (
     Scan,
     Step,
     While,
-    every,
+    blocks,
 )
 from pico.recipes.scanning import apart, column, columns, row
 from pico.recipes.terms import Term
@@ -65,6 +65,7 @@ class Entered:
     values: Mapping[str, Any] = field(default_factory=dict)
     turn: tuple[int, int | None] | None = None
     title: str = ""
+    known: bool = True
 
     @property
     def said(self) -> str:
@@ -79,8 +80,8 @@ def walk(
     """Walk a recipe with all its parameters given; return what it `returns`.
 
     `ahead`: nothing is done yet, and what is measured is not known: what depends on it is left out, what that would
-    change is not known from there on, and `ahead` hears of each act and scan of which nobody knows whether it is done,
-    or with what.
+    change is not known from there on, such steps are entered as not `known`, and `ahead` hears of each act and scan
+    among them.
 
     Throw PicoError in where an act failed: the steps of `finally` are then asked for, and it comes out again. Raises
     PicoError for an assertion that does not hold (exit code EXPECTATION), for a loop beyond its bound, and for an
@@ -112,6 +113,8 @@ class _Walker:
         self.measured: dict[str, float] = {}
         self.looked: dict[str, Any] = {}
         """Names of the bench with their values as the step asked for them that is begun."""
+        self.spoken: Mapping[str, Any] = {}
+        """Names with their values of which the last condition spoke."""
 
     def titled(self, step: Step, names: _Names) -> str:
         """Return the title of a step with the values that are known of it; empty where it is as it is written."""
@@ -155,9 +158,9 @@ class _Walker:
             elif isinstance(step, Choice):
                 holds = yield from self.holds(step, step.that, names, path)
                 if holds is None:
-                    self.left_out((*step.then, *step.otherwise), names)
+                    self.left_out(step, names, path, depth)
                     continue
-                self.enter(Entered(path, step, depth, {"holds": holds}))
+                self.enter(Entered(path, step, depth, {**self.spoken, "holds": holds}))
                 inner, branch = (step.then, f"{path}.") if holds else (step.otherwise, f"{path}.else.")
                 yield from self.block(inner, _Names({}, names), branch, depth + 1)
             elif isinstance(step, Call):
@@ -166,7 +169,8 @@ class _Walker:
                 for name, term in step.values.items():
                     names.give(name, (yield from self.value(term, names, f"{path}.{name}", step.source)))
                 values = {n: names.all()[n] for n in step.values}
-                self.enter(Entered(path, step, depth, values, title=self.titled(step, names)))
+                known = not _unknown(values)
+                self.enter(Entered(path, step, depth, values, title=self.titled(step, names), known=known))
             elif isinstance(step, Assert):
                 yield from self.require(step, names, path, depth)
         return {}
@@ -174,7 +178,7 @@ class _Walker:
     def act(self, step: Act, names: _Names, path: str, depth: int) -> Walk:
         given = yield from self.filled(step.given, names, path, step.source)
         if _unknown(given):
-            self.left_out([step], names)
+            self.left_out(step, names, path, depth)
             return {}
         self.enter(Entered(path, step, depth, given, title=self.titled(step, names)))
         told = yield Ask(path, step, given)
@@ -199,7 +203,7 @@ class _Walker:
         for address, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{address}", step.source)))
         if _unknown(lists):
-            self.left_out([step], names)
+            self.left_out(step, names, path, depth)
             return {}
         turns = self.combined(step, lists)
         rows: list[dict[str, float]] = []
@@ -238,7 +242,7 @@ class _Walker:
         for name, term in step.over.items():
             lists.append((yield from self.value(term, names, f"{path}.{name}", step.source)))
         if _unknown(lists):
-            self.left_out(step.steps, names)
+            self.left_out(step, names, path, depth)
             return {}
         turns = self.combined(step, lists)
         for n, values in enumerate(turns):
@@ -252,13 +256,13 @@ class _Walker:
         for n in range(step.most + 1):
             holds = yield from self.holds(step, step.that, names, f"{path}[{n + 1}]")
             if holds is None:
-                self.left_out(step.steps, names)
+                self.left_out(step, names, path, depth)
             if not holds:
                 return {}
             if n == step.most:
                 break
             self.count(step)
-            self.enter(Entered(path, step, depth, {}, (n + 1, step.most)))
+            self.enter(Entered(path, step, depth, dict(self.spoken), (n + 1, step.most)))
             yield from self.block(step.steps, _Names({}, names), f"{path}[{n + 1}].", depth + 1)
         text = f"step {path} went round {step.most} times, and `{step.that.text if step.that else ''}` still holds"
         raise PicoError(
@@ -278,8 +282,9 @@ class _Walker:
     def require(self, step: Assert, names: _Names, path: str, depth: int) -> Walk:
         holds = yield from self.holds(step, step.that, names, path)
         if holds is None:
+            self.left_out(step, names, path, depth)
             return {}
-        self.enter(Entered(path, step, depth, {"holds": holds}))
+        self.enter(Entered(path, step, depth, {**self.spoken, "holds": holds}))
         if holds:
             return {}
         said = ""
@@ -289,16 +294,23 @@ class _Walker:
         text = said or f"`{step.that.text}` does not hold"
         raise PicoError(_wrong("assert", text, step.source, f"step {path}"), ExitCode.EXPECTATION)
 
-    def left_out(self, steps: Iterable[Step], names: _Names) -> None:
-        """Take what steps change for unknown, of which only a measurement will tell whether they are done."""
+    def left_out(self, step: Step, names: _Names, path: str, depth: int) -> None:
+        """Take what a step changes for unknown, of which only a measurement will tell whether it is done, or with
+        what; and so of the steps in it."""
         assert self.ahead is not None  # all is known where it is done
-        for step in every(steps):
-            for name in _given(step):
-                names.give(name, UNKNOWN)
-            if isinstance(step, Act | Scan):
-                self.ahead(step)
-            elif isinstance(step, Call) and step.recipe is not None:
-                self.left_out((*step.recipe.steps, *step.recipe.finally_), _Names({}))
+        self.enter(Entered(path, step, depth, known=False))
+        for name in _given(step):
+            names.give(name, UNKNOWN)
+        if isinstance(step, Act | Scan):
+            self.ahead(step)
+        inside = list(blocks(step))
+        if isinstance(step, Call) and step.recipe is not None:
+            inside, names = [("", step.recipe.steps), ("finally", step.recipe.finally_)], _Names({})
+        turn = "[1]" if isinstance(step, Each | While) else ""
+        for word, inner in inside:
+            at = f"{path}{turn}.{word}." if word in ("else", "finally") else f"{path}{turn}."
+            for one in inner:
+                self.left_out(one, names, at + one.at.rpartition(".")[2], depth + 1)
 
     # values
 
@@ -327,6 +339,9 @@ class _Walker:
         if term.asks:
             self.looked |= yield Ask(f"{path}?", names=term.asks)
             known |= {name: self.looked[name] for name in term.asks if name in self.looked}
+        self.spoken = {
+            w: known[w] for w in sorted(term.words() & known.keys()) if isinstance(known[w], bool | int | float)
+        }
         try:
             found = term.value(known)
         except ExpressionError as exc:

@@ -27,6 +27,17 @@ def test_a_laser_that_is_off_is_followed_and_called_off(shel: Path, pico: Pico) 
     assert pico("beam", "--json").data["dark"] == ["laser"]
 
 
+def test_what_the_manifest_does_not_say_stays_as_the_bench_has_it(shel: Path, pico: Pico) -> None:
+    edit(shel / "lab.yaml", "inventory:\n", "inventory:\n  iris_1: {type: iris, marker: 77, home: storage/b3}\n")
+    edit(shel / "state" / "table.yaml", "components:\n",
+         "components:\n  iris_1:\n    pose: {x: 340, y: 420, yaw: 0}\n")  # fmt: skip
+    power = {row["component"]: row["power"] for row in pico("beam", "--manifest", "--json").data["rows"]}
+    assert "iris_1" in power and power["cam"] > 0
+    assert pico("set", "iris_1", "opening=1", "--yes").code == 0
+    less = {row["component"]: row["power"] for row in pico("beam", "--manifest", "--json").data["rows"]}
+    assert 0 < less["cam"] < 0.8 * power["cam"]
+
+
 def test_what_is_clipped_missed_and_dark_is_told(shel: Path, pico: Pico) -> None:
     state = shel / "state" / "table.yaml"
     edit(state, "  p2:\n    pose:\n      x: 520\n      y: 420", "  p2:\n    pose:\n      x: 520\n      y: 430.9")

@@ -304,3 +304,24 @@ def test_a_name_that_is_taken_is_told_before_anything_moves(turning: Path, pico:
     (turning / "recipes" / "naming.yaml").write_text(NAMING.replace("tag: t-${label}", "branch: e1"))
     taken = pico("recipe", "check", "naming")
     assert taken.code == 1 and "there is a branch `e1` already" in taken.err
+
+
+def test_what_a_condition_and_a_value_come_to_is_printed_and_what_depends_on_a_measurement_is_told(
+    turning: Path, pico: Pico
+) -> None:
+    (turning / "recipes" / "telling.yaml").write_text(
+        "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: telling}\nsteps:\n- set: {p1.angle: 10}\n- wait: 0.1\n"
+        "- {measure: p1.angle, as: seen}\n- let: {third: seen / 3, both: '[seen / 3]'}\n- if: third > 3\n"
+        "  then: [{set: {p1.angle: third}}]\n- wait: 0.1\n- set: {p1.angle: 5}\nreturns: {third: third, both: both}\n"
+    )
+    ahead = pico("recipe", "check", "telling").out
+    assert "5.1 set p1.angle: third  depends on a measurement" in ahead
+    assert "1 step more depends on a measurement" in ahead
+    done = pico("run", "telling", "--yes")
+    assert done.code == 0, done.err
+    assert re.search(r"4 let third = 3\.3\d{0,4}, both = \[3\.3\d{0,4}\]\n", done.out)
+    assert re.search(r"5 if third > 3  third = 3\.3\d{0,4}: yes\n", done.out)
+    assert re.search(r"  both = \[3\.3\d{0,4}\]\n", done.out)
+    named = done.out.partition("has what it did, in 3 runs one after another: ")[2].replace("\n", " ").split(", ")
+    assert len(named) == 3
+    assert all(pico("runs", "show", run.strip()).code == 0 for run in named)

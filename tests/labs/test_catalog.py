@@ -8,6 +8,7 @@ from dataclasses import replace
 
 import pytest
 
+from pico.backends.sim.world import initial_value
 from pico.manifest.catalog import catalog_names, load_catalog, read_type
 from pico.manifest.files import decode
 from pico.manifest.text.tree import parse
@@ -168,3 +169,11 @@ def test_the_marker_lies_on_top_with_a_quiet_zone(name: str) -> None:
     assert geometry.marker is not None
     assert geometry.marker.at == (plate.at[0], plate.at[1], geometry.height)
     assert min(extent(plate)[:2]) >= geometry.marker.size * 8 / 6  # six cells of the marker and one of white around
+
+
+def test_what_is_set_at_first_lies_in_its_range() -> None:
+    for name, own in CATALOG.items():
+        for word, kind in own.tunables.items():
+            first = initial_value(kind)
+            if kind.range and isinstance(first, float):
+                assert kind.range[0] <= first <= kind.range[1], (name, word)

@@ -81,6 +81,7 @@ class Maker:
             return self.draw.choice((*own, *own, "0", "1", "2", "7.5", "30", "0.001"))
         one, pick = lambda: self.number(names, depth + 1), self.draw.choice
         lists = [f"[{self.draw.randint(1, 9)}, {pick(own)}]", *self.of_kind(names, "numbers")]
+        some = pick(lists)
         ways = (
             lambda: f"({one()} {pick('+-*')} {one()})",
             lambda: f"({one()} {pick('+-*')} {one()})",
@@ -90,8 +91,8 @@ class Maker:
             lambda: f"{pick(('sum', 'mean', 'least', 'most'))}({pick(lists)})",
             lambda: f"sqrt(abs({one()}))",
             lambda: f"mod({one()}, 7) + floor(abs(sin({one()})))",
-            lambda: (lambda own: f"{own}[size({own}) - 1]")(pick(lists)),
-            lambda: f"{pick(lists)}[int(abs(cos({one()})))]",
+            lambda: f"{some}[size({some}) - 1]",
+            lambda: f"{some}[int(abs(cos({one()})))]",
         )
         return pick(ways)()
 

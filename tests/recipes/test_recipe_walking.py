@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.recipes.walking import Ask, walk
+from pico.recipes.walking import Ask, Entered, walk
 
 
 def measured(value: float) -> Mapping[str, Any]:
@@ -127,6 +127,37 @@ def test_an_expression_that_runs_away_stops() -> None:
     recipe = right(f"steps:\n- let: {{l: 'range(1, 60, 1)'}}\n- let: {{x: '{text}'}}\n")
     _, failed = asked(recipe)
     assert isinstance(failed, PicoError) and "10,000 steps" in failed.diagnostics[0].summary
+
+
+def test_ahead_of_time_steps_that_depend_on_a_measurement_are_entered_as_such() -> None:
+    recipe = right(
+        "steps:\n- {measure: cam.power, as: now}\n- let: {half: now / 2}\n- if: now > 1\n  then:\n"
+        "  - foreach: {t: [1, 2]}\n    steps: [{set: {p1.angle: t}}]\n  else: [{wait: 1}]\n- set: {p1.angle: half}\n"
+        "- while: now > 2\n  most: 3\n  steps: [{measure: cam.power, as: now}]\n- assert: now > 1\n- wait: 1\n"
+    )
+    entered: list[Entered] = []
+    steps = walk(recipe, {}, entered.append, ahead=lambda _: None)
+    next(steps)
+    with pytest.raises(StopIteration):
+        while True:
+            steps.send({})
+    assert [e.path for e in entered if e.known] == ["1", "7"]
+    assert [(e.path, e.depth) for e in entered if not e.known] == [
+        ("2", 0), ("3", 0), ("3.1", 1), ("3.1[1].1", 2), ("3.else.1", 1), ("4", 0), ("5", 0), ("5[1].1", 1), ("6", 0),
+    ]  # fmt: skip
+
+
+def test_who_watches_hears_of_the_numbers_of_a_condition() -> None:
+    entered: list[Entered] = []
+    recipe = right(
+        "steps:\n- let: {a: 2, l: '[1, 2]'}\n- if: a > sum(l)\n  then: [{wait: 1}]\n- while: a < 3\n  most: 2\n"
+        "  steps: [{let: {a: a + 1}}]\n- assert: a == 3\n"
+    )
+    with pytest.raises(StopIteration):
+        next(walk(recipe, {}, entered.append))
+    assert [dict(e.values) for e in entered] == [
+        {"a": 2, "l": [1, 2]}, {"a": 2, "holds": False}, {"a": 2}, {"a": 3}, {"a": 3, "holds": True},
+    ]  # fmt: skip
 
 
 def test_ahead_of_time_what_depends_on_measurements_is_left_out() -> None:
