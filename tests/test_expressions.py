@@ -69,7 +69,8 @@ def test_mistakes_are_found_without_evaluating_and_at_their_place(
 @pytest.mark.parametrize(("text", "hint"), [
     ("operations['a'].mass > 1", "a whole number"), ("p2.angle % 2 == 1", "mod(a, b)"),
     ("'a' + 1 == 'a1'", "string(x)"),
-    ("max([1, 2]) > 1", "most(l)"), ("p2.open and p2.open", "`&&`"), ("distance(p1) > 1", "distance(text, text)"),
+    ("max([1, 2]) > 1", "most(l)"), ("p2.open and p2.open", "`&&`"), ("p2.angle ** 2 == 1", "`x * x`"),
+    ("p2.angle = 3", "`==`"), ("p2.angle", "a comparison"), ("distance(p1) > 1", "`distance(text, text)`"),
     ("last(operations) == 1", "l[size(l) - 1]"), ("size() > 1", "size(l)"), ("size(1) > 1", "size(l)"),
 ])  # fmt: skip
 def test_a_mistake_comes_with_what_would_be_right(language: Language, text: str, hint: str) -> None:

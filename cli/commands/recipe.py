@@ -56,7 +56,8 @@ def check(
     """Check a recipe on this bench before anything moves.
 
     Names, kinds, units, what the bench can do; then every state that is known in advance is planned from the one
-    before it. What depends on measurements is left out. Exits with 1 for mistakes, 3 for what is physically impossible.
+    before it. What depends on a measurement is listed, and left out of that. Exits with 1 for mistakes, 3 for what is
+    physically impossible.
 
     Examples:
       pico recipe check tilt_scan -p tilts='[0, 45]'
@@ -80,7 +81,7 @@ def check(
 
 @app.command()
 def steps(context: typer.Context) -> None:
-    """List the steps that recipes may have, each with an example.
+    """List the steps that recipes may have, each with an example, and the functions of expressions.
 
     Examples:
       pico recipe steps

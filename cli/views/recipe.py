@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from pico.recipes.walking import Entered
 
 
+MOST_ITEMS = 6
+"""So many items of a list are printed while a recipe runs."""
 MOST_RUNS = 6
 """So many of its runs are named after a recipe."""
 _TURN = re.compile(r"\[\d+\]")
@@ -69,7 +71,7 @@ def line(entered: Entered) -> str:
 
 
 def _listed(values: Mapping[str, Any]) -> str:
-    return ", ".join(f"{name} = {_short(value)}" for name, value in values.items())
+    return ", ".join(f"{name} = {_short(value, MOST_ITEMS)}" for name, value in values.items())
 
 
 def head(recipe: Recipe, ahead: Foreseen) -> str:
@@ -85,9 +87,13 @@ def head(recipe: Recipe, ahead: Foreseen) -> str:
     return "\n".join(wrap(said, ""))
 
 
-def _short(value: Any) -> str:
+def _short(value: Any, most: int | None = None) -> str:
+    """Return a value as it is printed, of a list at most so many items."""
     if isinstance(value, list | tuple):
-        return f"[{', '.join(map(_short, value))}]"
+        items = [_short(one) for one in value]
+        if most and len(items) > most:
+            items = [*items[: most - 2], "...", items[-1]]
+        return f"[{', '.join(items)}]"
     if isinstance(value, bool):
         return str(value).lower()
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -1,27 +1,31 @@
-"""The beam audit of a bench, and what it said before: `.pico/audit.json`, by a digest of lab, types and state.
+"""What the model of light says of a bench: the beam audit, and claims that tolerances do not carry. What it said before
+is kept: `.pico/audit.json`, `.pico/claims.json`, by a digest of lab, types and state.
 
-It may be deleted at any time; one that is damaged answers nothing.
+They may be deleted at any time; one that is damaged answers nothing.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.bench.opened import Opened
+from pico.diagnostics import Diagnostic, warning
 from pico.disk import write_whole
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.record import as_json, digest
+from pico.model.state import state_from_json
 from pico.optics.audit.findings import Audit, audit_from_json
 
 if TYPE_CHECKING:
     from pico.model.setup import Setup
     from pico.policy.audit import Lit
 
+T = TypeVar("T")
 VERSION = 1
 """Of the rules of the audit; a verdict by others is not believed."""
 MOST = 64
@@ -54,21 +58,46 @@ def audit_plan(opened: Opened, plan: Plan, seen: Observation) -> tuple[Audit, Li
 
 def known_or_found(root: Path, setup: Setup, lit: Lit, *, find: bool) -> Audit | None:
     """Return the verdict that is kept of a bench with light on it; where there is none, find and keep it, or None."""
-    path = root / ".pico" / "audit.json"
-    known, key = _read(path), _key(setup, lit)
-    if key in known:
-        try:
-            return audit_from_json(known[key])
-        except (KeyError, TypeError, ValueError):
-            pass
-    if not find:
-        return None
     from pico.policy.audit import judge
 
-    audit = judge(setup, lit)
-    kept = {**dict(list(known.items())[-MOST + 1 :]), key: as_json(audit)}
-    _write(path, {"version": VERSION, "audits": kept})
-    return audit
+    path = root / ".pico" / "audit.json"
+    return _kept(path, _key(setup, lit), audit_from_json, (lambda: judge(setup, lit)) if find else None)
+
+
+def with_claims(opened: Opened, plan: Plan) -> Plan:
+    """Return a plan to a state, sealed anew, with the claims of the lab that the tolerances of that state do not carry
+    as warnings. One that does nothing is told what is known already."""
+    setup = opened.setup
+    if not setup.lab.claims or plan.asked or plan.target.title:
+        return plan
+
+    def find() -> tuple[Diagnostic, ...]:
+        from pico.diagnosis.claims import uncarried
+
+        return tuple(one for _, one in uncarried(setup, state_from_json(plan.lab.name, plan.target.state)))
+
+    path, key = opened.root / ".pico" / "claims.json", digest([VERSION, setup.digest(), plan.target.state])
+    read: Callable[[Any], tuple[Diagnostic, ...]] = lambda kept: tuple(  # noqa: E731
+        warning("claim", one["summary"], detail=one["detail"], hint=one["hint"]) for one in kept
+    )
+    found = _kept(path, key, read, find if plan.operations else None)
+    return replace(plan, diagnostics=(*plan.diagnostics, *found)).sealed() if found else plan
+
+
+def _kept(path: Path, key: str, read: Callable[[Any], T], find: Callable[[], T] | None) -> T | None:
+    """Return what is kept under a key in a file; where nothing is, find and keep it, or None."""
+    known = _read(path)
+    if key in known:
+        try:
+            return read(known[key])
+        except (KeyError, TypeError, ValueError):
+            pass
+    if find is None:
+        return None
+    found = find()
+    kept = {**dict(list(known.items())[-MOST + 1 :]), key: as_json(found)}
+    _write(path, {"version": VERSION, path.stem: kept})
+    return found
 
 
 def _key(setup: Setup, lit: Lit) -> str:
@@ -78,7 +107,7 @@ def _key(setup: Setup, lit: Lit) -> str:
 def _read(path: Path) -> Mapping[str, Any]:
     try:
         content = json.loads(path.read_bytes())
-        return dict(content["audits"]) if content["version"] == VERSION else {}
+        return dict(content[path.stem]) if content["version"] == VERSION else {}
     except (OSError, ValueError, KeyError, TypeError):
         return {}
 

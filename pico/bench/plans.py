@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.bench.auditing import with_audit
+from pico.bench.auditing import with_audit, with_claims
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
@@ -175,11 +175,12 @@ class Plans:
         )
 
     def judged(self, plan: Plan, seen: Observation) -> Plan:
-        """Return the plan with what the beam audit and the policy of the lab say of it, and which goals it makes
-        stale. Of a step of an open run nobody reads that, and its edge judges it again anyway."""
+        """Return the plan with what the beam audit and the policy of the lab say of it, which claims its goal does not
+        carry, and which goals it makes stale. Of a step of an open run nobody reads that, and its edge judges it again
+        anyway."""
         if self.opened.recording is not None and (plan.asked or plan.target.title):
             return plan
-        plan = self._within_dose(with_audit(self.opened, plan, seen), seen)
+        plan = self._within_dose(with_claims(self.opened, with_audit(self.opened, plan, seen)), seen)
         told, lost = self._of_light(plan, seen)
         if told or lost:
             plan = replace(plan, spoils=lost or None, diagnostics=(*plan.diagnostics, *told)).sealed()

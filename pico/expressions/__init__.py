@@ -79,7 +79,7 @@ class Language:
         by_name: dict[str, list[Any]] = {}
         for n, function in enumerate((*_OWN, *functions)):
             by_name.setdefault(function.name, []).append(self._declare(cel, function, str(n)))
-        self._known = {**dict.fromkeys(names, ""), **CONVERSIONS, **_called(functions)}
+        self._known = {**dict.fromkeys(names, ""), **CONVERSIONS, **called(functions)}
         self._env = cel.NewEnv(
             variables={name: self._kinds[kind] for name, kind in names.items()},
             functions=[cel.FunctionDecl(name, overloads) for name, overloads in by_name.items()],
@@ -92,7 +92,8 @@ class Language:
         compiled = self._compiled(text)
         given, wanted = (kind.name().lower() for kind in (compiled.return_type(), self._kinds[result]))
         if given not in (wanted, "dyn") and wanted != "dyn":
-            raise ExpressionError(f"it is {wording.kind(given)}, not {wording.kind(wanted)}", 0, len(text))
+            hint = "a comparison, as in `a > 0`" if wanted == "bool" else ""
+            raise ExpressionError(f"it is {wording.kind(given)}, not {wording.kind(wanted)}", 0, len(text), hint)
         return Expression(text, result, compiled)
 
     def _compiled(self, text: str) -> Any:
@@ -178,11 +179,13 @@ _OWN = (
 )
 
 
-def _called(functions: Sequence[Function]) -> dict[str, str]:
-    """Return how functions are called, by their names."""
+def called(functions: Sequence[Function]) -> dict[str, str]:
+    """Return how functions are called, by their names: `round(number)`, in words."""
     ways: dict[str, list[str]] = {}
     for one in functions:
-        ways.setdefault(one.name, []).append(f"`{one.name}({', '.join(map(wording.kind, one.parameters))})`")
+        ways.setdefault(one.name, []).append(
+            f"`{one.name}({', '.join(wording.kind(k).removeprefix('a ') for k in one.parameters)})`"
+        )
     return {name: " or ".join(found) for name, found in ways.items()}
 
 

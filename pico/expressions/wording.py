@@ -91,10 +91,12 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
     if overload := _OVERLOAD.search(said):
         operator = WRITTEN.get(overload[1], overload[1])
         return _misfit(operator, overload[2]), start, start + 1, _HINTS.get(operator) or known.get(operator, "")
+    if text[start : start + 1] == "=":
+        return "`=` alone says nothing here", start, start + 1, "`==` compares"
     words = said.partition(" (in container")[0].removeprefix("Syntax error: ")
     words = re.sub(r"mismatched input '<EOF>'.*", "it ends too early", words)
     words = re.sub(r"token recognition error at: '(.*)'.*", r"an open quote or an unknown sign, `\1`", words)
-    hint = _meant(path[0], ()) if path else ""
+    hint = _meant(path[0], ()) if path else "`x * x`" if text[start - 1 : start + 1] == "**" else ""
     return f"it can't be read here: {re.sub(r' expecting .*', '', words)}", start, start + 1, hint
 
 

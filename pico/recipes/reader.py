@@ -31,6 +31,8 @@ _WORDS = {
     "number": "a number", "bool": "true or false", "text": "text", "numbers": "a list of numbers",
     "texts": "a list of texts", "list": "a list", "any": "a value",
 }  # fmt: skip
+RANGE = "`{from: 0, to: 45, step: 5}`, or `count: 10` instead of the step"
+LISTED = "`pico recipe steps` lists what expressions may have, after the steps"
 NAMES = "letters, digits, `-`, `_`"
 _QUANTITY = re.compile(r"\s*[-+]?\d")
 _WORD = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
@@ -182,7 +184,7 @@ class Reader:
             return self._mistake(node, exc, what), Name("number", unit)
         if kind not in ("numbers", "texts"):
             told = f"{what} is {_WORDS[kind]}, not a list of values"
-            return self.wrong(node, "type", told, "`[0, 5, 10]`, or `{from: 0, to: 45, step: 5}`"), Name("number", unit)
+            return self.wrong(node, "type", told, f"`[0, 5, 10]`, or {RANGE}"), Name("number", unit)
         known, term = scope.name(node.text), self._sure(scope, node, Term(parts=(expression,)))
         return term, Name("number" if kind == "numbers" else "text", known.unit if known else unit)
 
@@ -197,7 +199,7 @@ class Reader:
         """Return a range: `from` and `to` are in it, values are `step` apart, or as many as `count` says."""
         last = "step" if "step" in node.entries else "count"
         if set(node.entries) != {"from", "to", last}:
-            return self.wrong(node, "range", f"{what} is no range", "`{from: 0, to: 45, step: 5}`, or `count: 10`")
+            return self.wrong(node, "range", f"{what} is no range", RANGE)
         given = {
             k: self.number(scope, node.entries[k][1], f"{k} of {what}", "" if k == "count" else unit)
             for k in ("from", "to", last)
@@ -250,7 +252,8 @@ class Reader:
         try:
             kind, found = scope.language.kind_of(node.text)
         except ExpressionError as exc:
-            return self._mistake(node, exc, what, "a text stands in quotes of its own: `\"'e1'\"`"), Name("number")
+            hint = "a text stands in quotes of its own: `\"'e1'\"`" if is_name(node.text.replace(" ", "-")) else ""
+            return self._mistake(node, exc, what, hint), Name("number")
         if kind == "any" or (kind == "list" and node.text.replace(" ", "") != "[]"):
             told = f"nobody can tell beforehand what {what} is: `{node.text[:40]}`"
             return self.wrong(node, "type", told), Name("number")
@@ -287,6 +290,10 @@ class Reader:
         kinds = self.setup.type_of(component).tunables
         if name in kinds:
             return component, name, kinds[name]
+        if not name and kinds:
+            text = f"`{component}` is a component: one of its tunables is wanted"
+            self.wrong(node, "unknown-tunable", text, f"`{component}.{next(iter(kinds))}`, on one line")
+            return None
         hint = did_you_mean(name[:40], kinds) or f"it has: {', '.join(kinds) or 'none'}"
         self.wrong(node, "unknown-tunable", f"{component} has no tunable `{name[:40]}`", hint)
         return None
@@ -415,7 +422,9 @@ class Reader:
         if self.lost & {word.partition(".")[0] for word in _WORD.findall(node.text)}:
             return NOTHING
         source = inside(self.document.source, node, before + exc.start, before + exc.end)
-        self.found.append(error("expression", f"{what} can't be told: {exc}", hint=exc.hint or hint, source=source))
+        self.found.append(
+            error("expression", f"{what} can't be told: {exc}", hint=exc.hint or hint or LISTED, source=source)
+        )
         return NOTHING
 
 

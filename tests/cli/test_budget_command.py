@@ -55,6 +55,27 @@ def test_commit_and_validate_warn_where_the_tolerances_do_not_carry_a_claim(shel
     assert committed.code == 0 and "laser.walk.pitch to 0.0003" in committed.err
 
 
+def test_a_plan_warns_of_a_claim_that_its_goal_does_not_carry(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    edit(shel / "lab.yaml", "sim:\n", CLAIM)
+    first = pico("plan", "e1")
+    assert first.code == 0 and "the tolerances do not carry shift" in words(first.out + first.err)
+    assert "p1.angle to 0.02" in words(first.out + first.err)
+
+    def again(*_: object) -> None:
+        raise AssertionError("what is known is reckoned again")
+
+    monkeypatch.setattr("pico.diagnosis.claims.uncarried", again)
+    second = pico("plan", "e1", "--json").data
+    assert [d["code"] for d in second["diagnostics"] if d["code"] == "claim"] == ["claim"]
+    assert "claim" not in {
+        d["code"] for d in pico("plan", "--json").data["diagnostics"]
+    }  # nothing to do: nothing traced
+    edit(shel / "lab.yaml", "to: 2 %", "to: 10 %")
+    assert "reckoned again" in pico("plan", "e1").err
+
+
 def test_a_claim_that_makes_no_sense_is_told_at_its_place(shel: Path, pico: Pico) -> None:
     wrong = CLAIM.replace("minus.cam.centroid.y", "minus.cam.centre.y").replace("179", "579").replace("2 %", "2 kg")
     edit(shel / "lab.yaml", "sim:\n", wrong)

@@ -306,6 +306,14 @@ def test_a_name_that_is_taken_is_told_before_anything_moves(turning: Path, pico:
     assert taken.code == 1 and "there is a branch `e1` already" in taken.err
 
 
+def test_the_functions_of_expressions_are_listed_with_the_steps(turning: Path, pico: Pico) -> None:
+    said = " ".join(pico("recipe", "steps").out.split())
+    assert "`linspace(number, number, number)`" in said and "`size(l)`" in said
+    assert pico("recipe", "steps", "--json").data["functions"]["round"] == "`round(number)` or `round(number, number)`"
+    edit(turning / "recipes" / "turning.yaml", "abs(seen - angle)", "abs(seen angle)")
+    assert "`pico recipe steps` lists" in pico("recipe", "check", "turning").err
+
+
 def test_what_a_condition_and_a_value_come_to_is_printed_and_what_depends_on_a_measurement_is_told(
     turning: Path, pico: Pico
 ) -> None:
