@@ -9,7 +9,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
 from pico.drivers.bus import LONGEST, Bus
@@ -29,6 +29,8 @@ REACHED = 0.1
 _BUSY = 9
 _REPLY = 0.4
 """How long a mount may take for a reply [s]."""
+_END, _DIGITS = b"\r\n", 8
+"""What ends a reply, and how many digits a position has."""
 
 
 def _opened(entry: DeviceEntry) -> ElliptecBus:
@@ -149,22 +151,36 @@ class Rotator:
         )
 
 
+def _line_of(bus: ElliptecBus) -> Any:
+    """The serial line of a bus; raises ConnectionError where it is closed."""
+    if bus._serial is None:
+        raise ConnectionError("the line is closed")
+    return bus._serial
+
+
 def _fresh(bus: ElliptecBus) -> None:
     """Forget what was heard. The library's own way also takes back what was said to another mount and is on its way."""
-    link = bus._serial
-    if link is None:
-        raise ConnectionError("the line is closed")
-    link.reset_input_buffer()
+    _line_of(bus).reset_input_buffer()
 
 
 def _heard(bus: ElliptecBus, within: float) -> Packet | None:
-    """Return the next reply; None where none came, or a piece of one."""
-    from ElliptecBus.elliptec_bus import ElliptecProtocolError, ElliptecTimeoutError
+    """Return the next whole reply; None where none came. The library's own way takes a line for whole that was only
+    begun when its time was over."""
+    from ElliptecBus.elliptec_bus import ElliptecProtocolError
 
-    try:
-        return bus.read_packet(timeout=within)
-    except (ElliptecTimeoutError, ElliptecProtocolError):
+    line = _line_of(bus)
+    line.timeout = within
+    said = line.read_until(_END)
+    if said and not said.endswith(_END):
+        line.timeout = _REPLY
+        said += line.read_until(_END)
+    if not said.endswith(_END):
         return None
+    try:
+        packet = bus.parse_packet(said.decode("ascii").strip())
+    except (ElliptecProtocolError, UnicodeDecodeError):
+        return None
+    return None if packet.command == "PO" and len(packet.data) != _DIGITS else packet
 
 
 def _hex(pulses: float) -> str:

@@ -10,6 +10,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -20,9 +21,8 @@ from pico.backends.emulated.bench import PACE
 from pico.model.pose import Pose
 
 DEVICES = Path(__file__).resolve().parent.parent / "backends" / "hardware" / "devices.yaml"
-pytestmark = pytest.mark.slow
-pytest.importorskip("xarm")
-pytest.importorskip("ElliptecBus")
+there = find_spec("xarm") and find_spec("ElliptecBus")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(not there, reason="the extras xarm and thorlabs")]
 EMULATED = ("--backend", "hardware", "--emulate")
 
 
