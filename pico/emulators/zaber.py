@@ -48,6 +48,7 @@ class Stage:
                 self._go(int(counts) / self._counts, now)
             case ["home"]:
                 self._homed = True
+                self._behind.write("homed", True)
                 self._go(0.0, now)
             case ["stop"]:
                 self._behind.write("position", self._at(now))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -107,6 +108,7 @@ def test_what_has_no_device_is_left_out_but_for_light(setup: Setup) -> None:
     assert seen.components["laser"].values["shutter"].status == "unknown", "it may be open"
 
 
+@pytest.mark.skipif(not (find_spec("xarm") and find_spec("ElliptecBus")), reason="the extras xarm and thorlabs")
 def test_the_instruments_of_a_lab_are_found_by_what_it_names(setup: Setup, tmp_path: Path) -> None:
     assert setup.wiring is not None
     found = wired(setup, setup.wiring.devices, Buses(), Settings(tmp_path, "hardware"))
