@@ -230,8 +230,8 @@ class Experiment:
         tag = restored.tag.lower()
         git(self.folder, "checkout", "-q", "--detach", tag)
         with Bench.open(self.folder, fidelity=self.fidelity) as bench:
-            bound = bound_of(bench, tag)
             plan = bench.plan(tag, align=True)
+            bound = bound_of(bench, tag, plan)
             report = bench.apply(plan)
             came = Came(restored, _unreached(report), bound=bound)
             if came.why:
@@ -301,10 +301,10 @@ def _kind(name: str, *, aligns: bool) -> str:
     return "aligning" if aligns or name in ("optimize", "verify") else "settling"
 
 
-def bound_of(bench: Bench, tag: str) -> Bound:
-    """Return what it takes at least to bring the bench as it is seen to a commit with its light. Nothing of it is from
-    a run, or from what a plan reckons for light."""
-    setup, moves, whole = bench.setup, bench.plan(tag, align=False), bench.plan(tag, align=True)
+def bound_of(bench: Bench, tag: str, whole: Plan) -> Bound:
+    """Return what it takes at least to bring the bench as it is seen to a commit with its light, by the `whole` plan
+    for that: which goals are sought. Nothing of it is from a run, or from what a plan reckons for light."""
+    setup, moves = bench.setup, bench.plan(tag, align=False)
     goals = [
         (setup.lab.goals or {})[str(op.arguments["goal"])] for op in whole.operations if op.primitive == "optimize"
     ]
