@@ -27,7 +27,7 @@ HOMED = 143361
 REACHED = 0.1
 """How far from where it was sent a mount may come to rest [deg]."""
 _BUSY = 9
-_REPLY = 0.4
+_REPLY = 0.9
 """How long a mount may take for a reply [s]."""
 _END, _DIGITS = b"\r\n", 8
 """What ends a reply, and how many digits a position has."""
