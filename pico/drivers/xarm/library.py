@@ -53,6 +53,9 @@ def _library() -> Any:
         from xarm.wrapper import XArmAPI
     finally:
         sys.meta_path.remove(quietly)
+    for name, module in list(sys.modules.items()):
+        if name.startswith("xarm."):  # what somebody else imported before, too
+            module.__dict__["print"] = _ignored
     for logger in (log.logger, log.origin_logger, log.Logger.logger):
         logger.handlers.clear()
         logger.addHandler(logging.NullHandler())
@@ -94,7 +97,10 @@ def connected(host: str, port: int) -> Any:
 
     Raises ConnectionError where none answers within OPENING.
     """
-    made = library()(host, is_radian=True, do_not_open=True, forbid_uds=True, check_joint_limit=False)
+    made = library()(
+        host, is_radian=True, do_not_open=True, forbid_uds=True, check_joint_limit=False,
+        check_is_pause=False, check_cmdnum_limit=False,  # with these it waits without end for a person
+    )  # fmt: skip
     failed: list[BaseException] = []
 
     def connect() -> None:

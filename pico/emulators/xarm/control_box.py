@@ -80,6 +80,8 @@ class ControlBox:
     """Transactions whose motion is over, with how it ended (0: there); told to who asked for that by register 254."""
     requested: Counter[int] = field(default_factory=Counter)
     unknown: list[int] = field(default_factory=list)
+    invalid: list[int] = field(default_factory=list)
+    """Registers that were answered as invalid, the unknown ones among them."""
     _doing: int = 0
 
     @property
@@ -190,5 +192,5 @@ class ControlBox:
         found.claw, found.moved, found.now, found.pressed = self.claw, self.moved, self.now, self.pressed
         found.settings, found.saved = self.saved, self.saved
         found.error = self.pressed
-        found.requested, found.unknown = self.requested, self.unknown
+        found.requested, found.unknown, found.invalid = self.requested, self.unknown, self.invalid
         return found

@@ -44,6 +44,7 @@ def answer(box: ControlBox, frame: Frame) -> bytes:
             raise Invalid
         values = handler(box, frame)
     except (Invalid, struct.error, IndexError):
+        box.invalid.append(frame.register)
         return reply(frame, box.status | _INVALID)
     return reply(frame, box.status, values)
 

@@ -182,6 +182,15 @@ def test_the_gripper_is_stopped_where_it_is(rig: Rig) -> None:
     assert claw.width == pytest.approx(width, abs=5.0)
 
 
+def test_an_arm_that_a_person_has_paused_keeps_nobody_waiting(rig: Rig) -> None:
+    rig.do(rig.gripper.connect())
+    rig.emulator.box.claw.fingers = None
+    rig.emulator.box.state = 3
+    rig.link.await_reports(2)
+    assert rig.do(rig.gripper.move_to(40.0)).width == pytest.approx(40.0, abs=0.1)
+    assert rig.do(rig.arm.ready()).enabled
+
+
 def test_what_the_library_started_ends_with_the_link(rig: Rig) -> None:
     before = set(threading.enumerate())
     fresh = rigged(rig.emulator, rig.loop)
