@@ -9,8 +9,7 @@ MORE = "More, for what is set up once or asked for seldom: `pico help all`."
 LAST = """\
 What moves something or lets light out asks first, unless told --yes (or -y).
 Every command takes -C DIR (work as if started there), --json, --debug (show
-tracebacks) and --backend sim|hardware [--emulate]. `pico help COMMAND`
-explains one."""
+tracebacks), --backend sim|hardware, --emulate. `pico help COMMAND` explains it."""
 
 
 def help_text(*, every: bool = False) -> str:

@@ -151,7 +151,7 @@ def test_while_a_bench_plans_the_loop_of_its_edge_answers(tmp_path: Path, monkey
         raise PicoError([])
 
     make_example("shel", tmp_path / "shel")
-    monkeypatch.setattr("pico.planning.plan", busy)
+    monkeypatch.setattr("pico.planning.planner.Planner.plan", busy)
     with pico.open(tmp_path / "shel") as bench:
 
         def asks() -> None:
