@@ -140,7 +140,7 @@ def test_without_being_told_a_plot_shows_what_was_read_first_against_what_was_sc
             bench.set({"hwp.angle": 2 * angle})
     plot = run.table.plot()
     assert (plot.points.x_name, plot.points.y_name) == ("hwp.angle", "laser.monitor"), "what changed first"
-    assert plot.points.x == (20.0, 40.0)  # before that nobody had looked at it
+    assert plot.points.x == (22.75, 20.0, 40.0)  # first as its first change found it
     assert table.scanned(bench.history.recorded_run()[0].trace) == ("hwp.angle", "p2.angle")
     with bench.record("still") as run:
         bench.measure("p1.pose", "laser.monitor")
