@@ -36,7 +36,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from oracles.poison import poisoned  # noqa: E402
 
-from pico.backends.sim.checks import standing  # noqa: E402
+from pico.backends.checks import standing  # noqa: E402
 from pico.backends.sim.device import SimDevice  # noqa: E402
 from pico.backends.sim.store import load_world  # noqa: E402
 from pico.cameras.calibrating import calibrate  # noqa: E402

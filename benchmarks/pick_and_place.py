@@ -30,8 +30,8 @@ sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
 
 from oracles.penetration import Watch  # noqa: E402
 
-from pico.backends.sim.checks import standing  # noqa: E402
-from pico.backends.sim.mover import MoveFailed  # noqa: E402
+from pico.backends.attempt import Failed  # noqa: E402
+from pico.backends.checks import standing  # noqa: E402
 from pico.backends.sim.physics import PhysicsWorld  # noqa: E402
 from pico.backends.sim.world import new_world  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
@@ -136,7 +136,7 @@ class Run:
                 simulated += seconds
         except StopIteration as stop:
             data = {**stop.value, **self._off(operation)}
-        except MoveFailed as exc:
+        except Failed as exc:
             failure = exc.diagnostic.summary
         spent = time.perf_counter() - began, time.process_time() - cpu
         return Trial(data, failure, path.seconds, simulated, *spent, self.path_cpu)

@@ -19,8 +19,9 @@ from pathlib import Path
 
 from pick_and_place import ROOT, Run
 
-from pico.backends.sim.checks import standing
-from pico.backends.sim.mover import InProgress, MoveFailed
+from pico.backends.attempt import Failed
+from pico.backends.checks import standing
+from pico.backends.sim.mover import InProgress
 from pico.backends.sim.physics import PhysicsWorld
 from pico.backends.sim.store import world_from_json
 from pico.backends.sim.world import World, new_world
@@ -50,7 +51,7 @@ def passed(physics: PhysicsWorld, work: InProgress, seconds: float = float("inf"
             spent += wait
     except StopIteration:
         pass
-    except MoveFailed as exc:
+    except Failed as exc:
         return exc.diagnostic.summary
     return ""
 
