@@ -24,8 +24,14 @@ def run(*command: str | Path, cwd: Path, expect: int = 0) -> None:
         sys.exit(f"{shown} ended with {done.returncode}, expected {expect}\n{done.stdout}{done.stderr}")
 
 
+def clean() -> None:
+    """Remove what a build leaves in the tree: metadata there is found before that of what is installed."""
+    for left in (ROOT / "build", *ROOT.glob("*.egg-info")):
+        shutil.rmtree(left, ignore_errors=True)
+
+
 def main() -> None:
-    shutil.rmtree(ROOT / "build", ignore_errors=True)
+    clean()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         build = [sys.executable, "-m", "build", "--wheel", "--no-isolation", "--outdir", folder / "dist", ROOT]
@@ -48,7 +54,7 @@ def main() -> None:
         for example in ("minimal", "crowded"):
             run(pico, "init", "--example", example, example, cwd=work)
             run(pico, "validate", cwd=work / example)
-    shutil.rmtree(ROOT / "build", ignore_errors=True)
+    clean()
     print("The wheel works outside the repository.")
 
 

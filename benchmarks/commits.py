@@ -10,7 +10,7 @@ half at random instants, half just before or after one of its steps (files, obje
 HEAD; and the next `pico commit` must work, with nothing left lying about and every run in exactly one commit.
 `--capture`: one part of so many is moved, once with 25 parts a file and once with all of them in one; prints the CPU
 seconds of `pico capture` and of `pico commit`, with the git commands that they start, and checks the bytes.
-Prints counts; the exit code is 1 where anything was wrong.
+Prints counts; the exit code is 1 where anything was wrong, 3 where only a capture took too long.
 """
 
 from __future__ import annotations
@@ -368,9 +368,9 @@ def cost(folder: Path, *words: str) -> float:
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def captured(parts: int) -> int:
-    """Capture and commit one moved part of so many; return how much was wrong."""
-    wrong = 0
+def captured(parts: int) -> tuple[int, int]:
+    """Capture and commit one moved part of so many; return how much was wrong, and how often it took too long."""
+    wrong = late = 0
     for per_file in (FILE, parts):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name) / "lab"
@@ -387,10 +387,10 @@ def captured(parts: int) -> int:
                 took["commit"] = min(took["commit"], cost(folder, "commit", "-m", "moved"))
                 cost(folder, "sim", "nudge", part, "--dx", "3")
                 took["both at once"] = min(took.get("both at once", 9.9), cost(folder, "commit", "-m", "moved"))
-            wrong += sum(1 for seconds in took.values() if seconds > SECONDS)
+            late += sum(1 for seconds in took.values() if seconds > SECONDS)
             told = ", ".join(f"{what} {seconds:.2f} CPU s" for what, seconds in took.items())
             print(f"{parts} parts, {min(per_file, parts)} a file: {told} (least of 5)", flush=True)
-    return wrong
+    return wrong, late
 
 
 def one_line(before: dict[Path, bytes], after: dict[Path, bytes], file: Path, part: str) -> bool:
@@ -409,7 +409,7 @@ def write(number: float) -> bytes:
 
 
 def main() -> int:
-    """Print the counts; the exit code is 1 where anything was wrong."""
+    """Print the counts; the exit code is 1 where anything was wrong, 3 where only a capture took too long."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--processes", type=int, default=4)
     parser.add_argument("--each", type=int, default=0, help="commits of each process")
@@ -420,8 +420,8 @@ def main() -> int:
     os.environ.update(IDENTITY | QUIET)
     wrong = at_once(given.processes, given.each) if given.each else 0
     wrong += killed(given.kills, given.seed) if given.kills else 0
-    wrong += captured(given.capture) if given.capture else 0
-    return int(wrong > 0)
+    off, late = captured(given.capture) if given.capture else (0, 0)
+    return 1 if wrong + off else 3 if late else 0
 
 
 if __name__ == "__main__":

@@ -94,7 +94,7 @@ def main() -> None:
                 f"{label:24}{cpu:8.2f}{cpu_bar or '':>8}{tofu_cpu:>8}{memory:9.0f}{memory_bar or '':>7}{tofu_memory:>7}"
                 + ("  missed" if late else "")
             )
-    sys.exit(1 if missed else 0)
+    sys.exit(3 if missed else 0)
 
 
 if __name__ == "__main__":

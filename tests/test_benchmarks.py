@@ -78,8 +78,8 @@ SMALLEST = {
 }
 ELSEWHERE = {"identical": "tests/planning/test_identical.py"}
 """Those that have a slow test of their own."""
-FIGURED = {"carrying", "mutants", "scale", "startup", "xarm_link"}
-"""Those that end with 1 by a figure, which so small a size or another machine's load decides."""
+MISSED = 3
+"""How one ends by a figure alone, which so small a size or another machine's load decides."""
 
 
 def test_every_benchmark_has_a_smallest_size() -> None:
@@ -97,6 +97,5 @@ def test_a_benchmark_runs(name: str, tmp_path: Path) -> None:
         [sys.executable, f"benchmarks/{name}.py", *words],
         cwd=ROOT, env=os.environ | {"TMPDIR": str(tmp_path)}, capture_output=True, text=True, check=False,
     )  # fmt: skip
-    late = name in FIGURED and "Traceback" not in done.stderr
-    assert done.returncode == 0 or late, done.stdout + done.stderr
+    assert done.returncode in (0, MISSED), done.stdout + done.stderr
     assert done.stdout.strip()

@@ -76,10 +76,10 @@ def with_claims(opened: Opened, plan: Plan) -> Plan:
 
         return tuple(one for _, one in uncarried(setup, state_from_json(plan.lab.name, plan.target.state)))
 
+    def read(kept: Any) -> tuple[Diagnostic, ...]:
+        return tuple(warning("claim", one["summary"], detail=one["detail"], hint=one["hint"]) for one in kept)
+
     path, key = opened.root / ".pico" / "claims.json", digest([VERSION, setup.digest(), plan.target.state])
-    read: Callable[[Any], tuple[Diagnostic, ...]] = lambda kept: tuple(  # noqa: E731
-        warning("claim", one["summary"], detail=one["detail"], hint=one["hint"]) for one in kept
-    )
     found = _kept(path, key, read, find if plan.operations else None)
     return replace(plan, diagnostics=(*plan.diagnostics, *found)).sealed() if found else plan
 

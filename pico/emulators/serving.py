@@ -6,6 +6,7 @@ import os
 import selectors
 import socket
 import threading
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
@@ -26,13 +27,13 @@ class Conversation(Protocol):
         ...
 
 
-class _Served:
+class _Served(ABC):
     def __init__(self) -> None:
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._serve, daemon=True, name="pico-emulator")
 
-    def _serve(self) -> None:
-        raise NotImplementedError
+    @abstractmethod
+    def _serve(self) -> None: ...
 
     def close(self) -> None:
         """End it; whoever is connected is cut off."""

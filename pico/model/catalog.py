@@ -432,6 +432,8 @@ _MEASURED_SINCE = ("dark", "monitor")
 """Measurables that types of the catalog have since then, besides those that are computed of others."""
 _TRIMS: Mapping[str, float] = {"mirror_tip_tilt": 2, "mirror_fixed": 5, "mirror_flip": 5}
 """What trims of mirrors in the catalog were before they had to take in how mirrors are placed, by type; 12 since."""
+_WIDE_OPEN: Mapping[str, float] = {"iris": 11.5, "slit": 6}
+"""Where what opens has its zero since that is within its range: wide open [mm], by type; 0 before."""
 _SCALES = {"nW": 1e-6}  # to mW
 _REQUESTS: Mapping[str, tuple[str, ...]] = {"source": ("emission", "shutter", "power"), "shutter": ("shutter",)}
 """Tunables that let light out, by element: what a state says of them is a request, also in types that were written when
@@ -483,6 +485,8 @@ def as_first_written(kind: ComponentType) -> ComponentType:
     for name, tunable in kind.tunables.items():
         if kind.name in _TRIMS and tunable.restore == Restore(kind="align", trim=12):
             tunables[name] = replace(tunable, restore=Restore(kind="align", trim=_TRIMS[kind.name]))
+        if tunable.axis is not None and tunable.axis.home == _WIDE_OPEN.get(kind.name):
+            tunables[name] = replace(tunable, axis=replace(tunable.axis, home=0.0))
     ends = None if kind.name in _DECLARED and kind.optics.ends_beams else kind.optics.ends_beams
     return replace(
         kind, parameters=own, measurables=measured, primitives=can, repeatability=repeats, tunables=tunables,

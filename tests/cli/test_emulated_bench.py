@@ -20,7 +20,7 @@ from commanding import Pico
 from pico.backends.emulated.bench import PACE
 from pico.model.pose import Pose
 
-DEVICES = Path(__file__).resolve().parent.parent / "backends" / "hardware" / "devices.yaml"
+DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
 there = find_spec("xarm") and find_spec("ElliptecBus")
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not there, reason="the extras xarm and thorlabs")]
 EMULATED = ("--backend", "hardware", "--emulate")

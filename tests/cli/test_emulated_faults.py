@@ -20,7 +20,7 @@ from pico.backends.emulated.bench import PACE
 from pico.backends.hardware import links
 from pico.model.pose import Pose
 
-DEVICES = Path(__file__).resolve().parent.parent / "backends" / "hardware" / "devices.yaml"
+DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
 EMULATED = ("--backend", "hardware", "--emulate")
 there = find_spec("xarm") and find_spec("ElliptecBus")
 pytestmark = [pytest.mark.slow, pytest.mark.skipif(not there, reason="the extras xarm and thorlabs")]

@@ -56,6 +56,13 @@ def requested(facts: dict[str, Any]) -> dict[str, Any]:
     return {address: [*row[:-2], False, False] if address in light else row for address, row in facts.items()}
 
 
+@EACH
+def test_its_digest_is_the_same(lab: Path, kept: Path) -> None:
+    with Bench.open(lab) as bench:
+        digest = bench.setup.digest()
+    assert {plan["lab"]["digest"] for plan in known(kept)["plans"].values()} == {digest}
+
+
 @SMALL
 def test_it_is_told_as_the_version_that_made_it_told_it(kept: Path, lab: Path, pico: Pico) -> None:
     now, then = json.loads(keeping.written(keeping.facts(pico, lab))), known(kept)

@@ -8,14 +8,14 @@ from pathlib import Path
 from pico.manifest.load import load_folder
 from pico.model.setup import Setup
 
-HERE = Path(__file__).resolve().parent
-LAB = HERE.parents[2] / "labs" / "shel"
+ROOT = Path(__file__).resolve().parents[3]
+LAB = ROOT / "labs" / "shel"
 
 
 def wired_lab(folder: Path) -> Setup:
     """Make the lab in `folder`, and return it with its instruments."""
     for name in ("lab.yaml", "state"):
         (shutil.copytree if (LAB / name).is_dir() else shutil.copy)(LAB / name, folder / name)
-    shutil.copy(HERE / "devices.yaml", folder)
+    shutil.copy(ROOT / "examples" / "devices.yaml", folder)
     setup, _ = load_folder(folder).require()
     return setup
