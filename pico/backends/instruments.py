@@ -68,11 +68,15 @@ def _row(name: str, entry: DeviceEntry, found: Driver, answer: Answer | None) ->
 
 def asked(entries: dict[str, DeviceEntry], *, emulate: bool = False, whoever: bool = False) -> list[InstrumentRow]:
     """Return a row a device with what it answers, or, with `emulate`, what its emulator does, behind which there is
-    nothing; `whoever`: also where another one answers than the lab says. Raises PicoError for one without emulator."""
+    nothing and it is dark; `whoever`: also where another one answers than the lab says. Raises PicoError for one
+    without emulator."""
     wanted = anybody(entries) if whoever else entries
     if not emulate:
         return listed(entries, asyncio.run(checked(wanted)))
-    bench = EmulatedBench(emulated(entries), lambda name, entry: Alone())
+    import numpy as np
+
+    dark = np.zeros((480, 640), np.uint8)
+    bench = EmulatedBench(emulated(entries), lambda name, entry: Alone({"frame": dark}))
     try:
         there = bench.entries
         return listed(there, asyncio.run(checked(anybody(there) if whoever else there)))

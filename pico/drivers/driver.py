@@ -33,6 +33,8 @@ class Driver:
     bus: tuple[str, ...]
     properties: Mapping[str, str] = field(default_factory=dict)
     needs: tuple[str, str] | None = None
+    load: Callable[[], object] | None = None
+    """Imports that module, where it must be kept from something; else it is imported as it is."""
     maturity: Maturity = "documented"
     tried: str = ""
     """With `on device`: the date and the firmware."""

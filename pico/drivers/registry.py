@@ -61,7 +61,7 @@ class Buses:
             raise PicoError(error("missing-extra", text, hint=install, address=name))
         require_fit(name, entry, found)
         if found.needs:  # seconds of some libraries, which are no answer's delay
-            import_module(found.needs[0])
+            found.load() if found.load else import_module(found.needs[0])
         link = found.link or f"{entry.driver} of {name}"
         key = (link, *(str(entry.address.get(part, "")) for part in found.bus))
         if key not in self._buses:

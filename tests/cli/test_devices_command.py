@@ -72,6 +72,16 @@ def test_emulators_answer_over_one_serial_line(lab: Path, pico: Pico) -> None:
     assert shown.out == 'p2_mount: identity: {vendor: "Thorlabs", model: "ELL14", serial: "11400518"}\n'
 
 
+@pytest.mark.slow
+def test_each_device_of_the_example_answers_emulated_and_its_vendors_library_says_nothing(lab: Path) -> None:
+    example = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
+    (lab / "devices.yaml").write_text(example.read_text())
+    words = [sys.executable, "-m", "pico_cli", "-C", str(lab), "devices", "check", "--emulate", "--json"]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert all(row["answer"]["reads"] for row in json.loads(done.stdout)["devices"])
+
+
 def test_who_does_not_answer_is_named_with_exit_code_1(lab: Path, pico: Pico) -> None:
     answer = pico("-C", str(lab), "devices", "check", "p1_mount")
     assert answer.code == 1 and "p1_mount failed when it was asked to say who it is" in answer.err

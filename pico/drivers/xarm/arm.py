@@ -17,7 +17,7 @@ from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import ArmState, Identity
 from pico.drivers.xarm.faults import clearable, told
-from pico.drivers.xarm.library import CONTROL_PORT, imported
+from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
 from pico.drivers.xarm.path import Path, checked
 from pico.drivers.xarm.settings import FENCE, PROPERTIES, differing, settings
@@ -249,6 +249,7 @@ DRIVER = Driver(
     bus=("host",),
     properties=PROPERTIES,
     needs=("xarm", "xarm"),
+    load=library,
     maturity="emulated",
     emulator="xarm",
     link="xarm",

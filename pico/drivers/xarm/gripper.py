@@ -132,6 +132,7 @@ DRIVER = Driver(
     bus=ARM.bus,
     properties={},
     needs=ARM.needs,
+    load=ARM.load,
     maturity="emulated",
     emulator=ARM.emulator,
     link=ARM.link,
