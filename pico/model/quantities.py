@@ -27,6 +27,7 @@ _FACTORS: dict[str, tuple[str, float]] = {
     "s": ("time", 1e3),
     "mW": ("power", 1.0),
     "uW": ("power", 1e-3),
+    "nW": ("power", 1e-6),
     "W": ("power", 1e3),
     "kg": ("mass", 1.0),
     "g": ("mass", 1e-3),
@@ -43,7 +44,7 @@ _DIMENSIONS = {
     "[mass]": "mass",
     "[mass] * [length] ** 2 / [time] ** 3": "power",
 }
-_OTHERS = frozenset({"%", "A", "A/W", "V", "V/A", "bit", "count", "dB", "mW/mm^2", "nW", "pixel"})
+_OTHERS = frozenset({"%", "A", "A/W", "V", "V/A", "bit", "count", "dB", "mW/mm^2", "pixel"})
 """Units besides that component types have: known without an import of pint."""
 # What may follow a number: units with one exponent each. Anything else never reaches pint, which evaluates powers.
 _UNIT = re.compile(

@@ -141,7 +141,7 @@ def test_no_stretch_of_a_rearranged_order_could_be_cheaper_and_precedence_is_kep
     for seed in range(4):
         case = instance(40, 0.3, seed)
         order = nearest_order(case.tour)
-        better = rearranged(case.tour, order)
+        better = rearranged(case.tour, order, 4)
         assert keeps(better, case.before)
         assert case.tour.cost(better) < case.tour.cost(order)
         line = [40, *better, 40]

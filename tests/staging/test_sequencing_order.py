@@ -110,3 +110,15 @@ def test_tables_that_do_not_fit_and_costs_that_are_none_are_errors() -> None:
         best_order([1, 1], [[0, 1]], [1, 1], [set(), set()])
     with pytest.raises(ValueError, match="finite"):
         best_order([1, 1], [[0, float("nan")], [1, 0]], [1, 1], [set(), set()])
+
+
+def test_an_order_to_begin_with_is_only_made_cheaper() -> None:
+    gains = []
+    for seed in range(4):
+        case = instance(45, 0.05, seed)
+        rough = ask(case, Effort(moves=3000, sweeps=0, rounds=0))
+        limit = Effort(moves=0, rounds=0)
+        fine = best_order(case.start, case.between, case.end, case.before, limit=limit, first=rough.order)
+        assert keeps(fine.order, case.before)
+        gains.append(rough.cost - fine.cost)
+    assert min(gains) >= 0 and max(gains) > 0

@@ -20,8 +20,8 @@ CLOSE = 8
 """How many other places to stage a component are weighed."""
 MANY = Effort(moves=150_000, steps=20_000_000, rounds=3, pivots=10_000)
 """How hard to look for an order of more moves than are solved exactly at once, and for a bound."""
-ORDER = replace(MANY, rounds=0)
-"""The same for an order alone: of several only one needs a bound."""
+ROUGH, FINE = replace(MANY, sweeps=0, rounds=0), replace(MANY, moves=0, rounds=0)
+"""The same in two steps, without a bound: an order by which stagings find their places, and that one improved."""
 
 Tables = tuple[list[float], list[list[float]], list[float], Closure]
 """What the ways to the first move, between moves and to the park take [s], and what must come before each move."""
@@ -62,12 +62,12 @@ def _one_arm(clock: Clock, steps: Sequence[OrderedMove], several: bool) -> ArmTo
     """Return the steps of one arm in order. The bound is that of the order taken; `several`: of all arms that could."""
     ways: Ways = {}
     asked = _tables(clock, steps, ways)
-    best = best_order(*asked, limit=ORDER)
-    order = tuple(steps[k] for k in best.order)
-    if (moved := nearer(clock, order)) != order:
-        asked = _tables(clock, moved, ways)
-        best = best_order(*asked, limit=ORDER)
-        order = tuple(moved[k] for k in best.order)
+    best = best_order(*asked, limit=ROUGH)
+    rough = tuple(steps[k] for k in best.order)
+    if (order := nearer(clock, rough)) != rough or not best.proven:
+        asked = _tables(clock, order, ways)
+        best = best_order(*asked, limit=FINE, first=range(len(order)))
+        order = tuple(order[k] for k in best.order)
     loaded = sum(clock.loaded(s) for s in order)
     if several or not clock.told:
         return ArmTour(order, loaded + best.cost, _least(clock, order) if several else None)

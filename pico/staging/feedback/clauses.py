@@ -65,14 +65,24 @@ class Cover:
         columns = np.array(sorted(variables), dtype=np.int32)
         self._highs.addRow(low, high, len(columns), columns, np.ones(len(columns)))
 
-    def solve(self, work: WorkLeft, start: frozenset[int] | None = None) -> CoverAnswer:
-        """Return the cheapest choice, or the best found until `work` is spent; `start` is a choice to begin with."""
+    def relaxed(self) -> tuple[float, ...]:
+        """Return how far each variable is chosen in the cheapest choice where that may be in part, from 0 to 1; nothing
+        where there is none."""
+        self._highs.setOptionValue("solve_relaxation", True)
+        self._highs.run()
+        self._highs.setOptionValue("solve_relaxation", False)
+        return tuple(self._highs.getSolution().col_value)
+
+    def solve(self, work: WorkLeft, start: frozenset[int] | None = None, known: float = 0.0) -> CoverAnswer:
+        """Return the cheapest choice, or the best found until `work` is spent; `start` is a choice to begin with.
+        `known`: what every choice is known to cost at least; one that costs no more is not proven once again."""
         import highspy
         import numpy as np
 
         highs = self._highs
         work.solves -= 1
         highs.setOptionValue("mip_max_nodes", max(1, work.nodes))
+        highs.setOptionValue("objective_target", known + CLOSE)
         if start is not None:
             values = np.array([float(v in start) for v in range(len(self.costs))])
             highs.setSolution(len(values), np.arange(len(values), dtype=np.int32), values)

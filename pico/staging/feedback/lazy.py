@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from pico.staging.feedback.clauses import Cover, reached
+from pico.staging.feedback.clauses import CLOSE, Cover, reached
 from pico.staging.feedback.digraph import strong_components
 from pico.staging.feedback.limit import WorkLeft
 from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
@@ -14,6 +14,8 @@ from pico.staging.feedback.walk import Pool, cost, first_choice, left_cycles, wa
 
 THREES = 20_000
 """Up to so many cycles of three edges are looked at before the first program."""
+MANY, ROUNDS = 40, 30
+"""Components from which on cycles are sought before it by relaxations, which take a tenth of its time, and how many."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,13 +64,11 @@ def solve_region(region: CoupledComponents, table: Literals, work: WorkLeft, ste
     best = walk(region.edges, pool, table, first_choice(table, region.members), steps, float("inf"))
     bound = 0.0
     literals = sorted(b for i in region.members for b in bits(table.of(i)))
-    cover, given = cover_of(literals, region.members, table), 0
-    column = {b: n for n, b in enumerate(literals)}
+    cover, column = cover_of(literals, region.members, table), {b: n for n, b in enumerate(literals)}
+    given = _separated(region, table, pool, cover, column) if len(region.members) >= MANY else 0
     while (best is None or not reached(cost(table, best), bound)) and not work.spent:
-        for clause in pool.clauses[given:]:
-            cover.one_of(column[b] for b in bits(clause.escapes))
-        given = len(pool.clauses)
-        answer = cover.solve(work, None if best is None else frozenset(column[b] for b in bits(best)))
+        given = _told(cover, pool, column, given)
+        answer = cover.solve(work, None if best is None else frozenset(column[b] for b in bits(best)), bound)
         if answer.infeasible:
             return Outcome(None, float("inf"), True)
         bound = max(bound, answer.bound)
@@ -77,6 +77,32 @@ def solve_region(region: CoupledComponents, table: Literals, work: WorkLeft, ste
         chosen = sum(1 << literals[n] for n in answer.chosen)
         best = _better(region, pool, table, chosen, best, steps)
     return Outcome(best, bound if best is None else min(bound, cost(table, best)))
+
+
+def _told(cover: Cover, pool: Pool, column: Mapping[int, int], given: int) -> int:
+    """Add the clauses of the pool behind those `given` to the program; return how many it has now."""
+    for clause in pool.clauses[given:]:
+        cover.one_of(column[b] for b in bits(clause.escapes))
+    return len(pool.clauses)
+
+
+def _separated(region: CoupledComponents, table: Literals, pool: Pool, cover: Cover, column: Mapping[int, int]) -> int:
+    """Add cycles to pool and program, as long as the relaxed program, rounded, leaves some that it itself denies;
+    return how many clauses the program has."""
+    given = 0
+    for _ in range(ROUNDS):
+        given = _told(cover, pool, column, given)
+        share = cover.relaxed()
+        if not share:
+            break
+        most = [
+            max(bits(group), key=lambda b: (share[column[b]], -b))
+            for i in region.members for group in dict.fromkeys(table.groups(i))
+        ]  # fmt: skip
+        pool.add(left_cycles(region.edges, sum(1 << b for b in set(most))))
+        if all(sum(share[column[b]] for b in bits(c.escapes)) > 1 - CLOSE for c in pool.clauses[given:]):
+            break
+    return given
 
 
 def _better(

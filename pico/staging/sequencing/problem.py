@@ -21,12 +21,14 @@ class Effort:
     """How hard to try; counts of work, never time, so that the same problem always has the same answer.
 
     `moves`: exchanges that the local search tries. `steps`: additions that the exact search may take (enough for any
-    18 operations). `rounds`: how often the bound is tightened where the exact search does not end, and `pivots`: how
+    18 operations). `sweeps`: how often an order that it does not prove is gone through, stretch by stretch, while it
+    becomes cheaper. `rounds`: how often the bound is tightened where the exact search does not end, and `pivots`: how
     many steps of its linear programs that may take.
     """
 
     moves: int = 1_200_000
     steps: int = 85_000_000
+    sweeps: int = 4
     rounds: int = 6
     pivots: int = 100_000
     seed: int = 0

@@ -23,15 +23,17 @@ def best_order(
     before: abc.Sequence[abc.Set[int]],
     *,
     limit: Effort = Effort(),  # noqa: B008
+    first: abc.Sequence[int] | None = None,
 ) -> Sequence:
     """Return the cheapest order of m operations that is found within `limit`, and a bound.
 
-    `start[j]`: the cost of going to operation j first (m). `between[i][j]`: of going from i to j (m x m, without the
-    diagonal). `end[i]`: of stopping after i (m). `before[j]`: what must come before j. The same input has the same
-    answer everywhere. Raises ValueError where sizes differ, a cost is not finite, or the precedence has a ring.
+    `start[j]`: the cost of going to operation j first (m). `between[i][j]`: of going from i to j (m x m, without
+    the diagonal). `end[i]`: of stopping after i (m). `before[j]`: what must come before j. `first`: an order that
+    keeps that, to begin with. The same input has the same answer everywhere. Raises ValueError where sizes differ,
+    a cost is not finite, or the precedence has a ring.
     """
     tour = read_tour(start, between, end, before)
-    order = nearest_order(tour)
+    order = nearest_order(tour) if first is None else tuple(first)
     if tour.count < 2:
         return _proven(tour, order)
     from pico.staging.sequencing.assignment import assign
@@ -45,7 +47,7 @@ def best_order(
         ended, order = improved(tour, order, limit.steps)
         if ended:
             return _proven(tour, order)
-    order = rearranged(tour, anneal(tour, order, near, limit.moves, limit.seed))
+    order = rearranged(tour, anneal(tour, order, near, limit.moves, limit.seed), limit.sweeps)
     return _bounded(tour, order, floor, limit)
 
 

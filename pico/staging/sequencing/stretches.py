@@ -8,19 +8,17 @@ from pico.staging.sequencing.problem import Tour
 
 LENGTH, STEP = 20, 7
 """Operations in a stretch, and how far the next one begins behind it."""
-SWEEPS = 4
-"""Times that the order is gone through, while it becomes cheaper."""
 STEPS = 3_000_000
 """Additions spent on one stretch."""
 
 
-def rearranged(tour: Tour, order: abc.Sequence[int]) -> tuple[int, ...]:
+def rearranged(tour: Tour, order: abc.Sequence[int], sweeps: int) -> tuple[int, ...]:
     """Return `order`, which must keep the precedence, with each stretch in its cheapest order, as far as the
-    search for it ends; never dearer."""
+    search for it ends; never dearer. It is gone through so many times, while it becomes cheaper."""
     line = [tour.count, *order, tour.count]
     length = min(LENGTH, tour.count)
     known: dict[tuple[int, ...], list[int]] = {}
-    for _ in range(SWEEPS):
+    for _ in range(sweeps):
         before = tuple(line)
         for first in [*range(1, tour.count - length + 1, STEP), tour.count - length + 1]:
             at = slice(first - 1, first + length + 1)
