@@ -24,7 +24,6 @@ MOVED = {
 RESERVED = {
     "commission": "taking a real bench into use",
     "serve": "serving a bench to others",
-    "edge": "benches that are served",
     "remote": "benches elsewhere",
     "lease": "who has a bench",
     "login": "people at a served bench",
@@ -35,6 +34,7 @@ RESERVED = {
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices",
+    "edge",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

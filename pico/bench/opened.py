@@ -10,9 +10,9 @@ from collections.abc import Coroutine
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from pico.backends.devices import SIMULATOR, opener
+from pico.backends.devices import EMULATED, SIMULATOR, opener
 from pico.bench.running.loop import LoopThread
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.lab.folder import LabFolder
 from pico.history.lab_history import LabHistory
 from pico.model.observation import Observation
@@ -84,13 +84,17 @@ class Opened:
 
     @property
     def edge(self) -> Edge:
-        """The edge, made when it is first needed; raises PicoError where its device can't be had."""
+        """The edge, made when it is first needed; raises PicoError where its device can't be had, and where another
+        bench of this lab is served than is asked for."""
         if self._edge is None:
-            from pico.edge.link.opening import opened, served_fidelity
+            from pico.edge.link.opening import opened, served
 
+            able = served(self.root)
+            if able is not None and able.name != self.backend_name:
+                raise PicoError(_another(self.setup.lab.name, able.name, self.backend_name))
             self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own)
-            if not self.asked:
-                self.fidelity = served_fidelity(self.root) or self.fidelity
+            if able is not None and not self.asked:
+                self.fidelity = able.fidelity
         return self._edge
 
     @property
@@ -140,6 +144,12 @@ class Opened:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _another(lab: str, served: str, asked: str) -> Diagnostic:
+    words = {EMULATED: "--backend hardware --emulate"}.get(served, f"--backend {served}")
+    text = f"{lab} is served as its {served} bench, and this is for its {asked} one"
+    return error("backend", text, hint=f"add `{words}`, or end the `pico edge` that serves it")
 
 
 def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:

@@ -113,14 +113,14 @@ class Recipes:
     def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
         """Return what is to be known of a recipe that begins now with nobody there; raises PicoError (exit code DENIED)
         where it must not."""
-        from pico.edge.link.opening import served_fidelity
+        from pico.edge.link.opening import served
         from pico.recipes.guarding import guard_of
 
         guard_of(self.bench, recipe, arguments).require_start()
-        if served_fidelity(self.bench.root):
+        if served(self.bench.root):
             return ()
         text = "only this process holds it to what it states: killed, it leaves the bench as it is to the next one"
-        hint = f"a bench that is served outlives it: `python -m pico.edge.link.server {self.bench.root.name}`"
+        hint = "a bench that is served outlives it: `pico edge`, in a terminal of its own"
         return (warning("unattended", text, hint=hint),)
 
     def require_step(self, recipe: Recipe, path: str, ahead: Foreseen | None = None) -> None:

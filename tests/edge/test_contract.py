@@ -397,7 +397,7 @@ def test_its_fidelity_counts_only_its_user_reaches_the_socket_and_a_second_serve
         path = place.find(lab)
         assert path is not None
         assert stat.S_IMODE(path.lstat().st_mode) == 0o600 and stat.S_IMODE(path.parent.lstat().st_mode) == 0o700
-        words = [sys.executable, "-m", "pico.edge.link.server", str(lab)]
+        words = [sys.executable, "-m", "pico_cli", "-C", str(lab), "edge"]
         second = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
         assert second.returncode == ExitCode.LOCKED and "is served already" in second.stderr
     assert place.find(lab) is None and not path.exists()

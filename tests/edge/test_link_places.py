@@ -35,7 +35,7 @@ def test_a_socket_that_can_not_be_made_is_told_in_a_line(example: Path, tmp_path
     long.mkdir()
     (tmp_path / f"pico-{os.getuid()}").touch()
     for folder, words in ((long, "path too long"), (tmp_path, "file exists")):
-        command = [sys.executable, "-m", "pico.edge.link.server", str(example)]
+        command = [sys.executable, "-m", "pico_cli", "-C", str(example), "edge"]
         told = subprocess.run(
             command, env={**os.environ, "TMPDIR": str(folder)}, capture_output=True, text=True, timeout=60, check=False
         )

@@ -93,6 +93,11 @@ class Links:
                 self._instruments = found
             return self._instruments
 
+    async def reached(self) -> dict[str, DeviceEntry]:
+        """Connect, and return the devices with the addresses that lead to them; raises PicoError as `instruments`."""
+        await self.instruments()
+        return self._reached()
+
     def _reached(self) -> dict[str, DeviceEntry]:
         if self._bring_up is None:
             return self.entries

@@ -53,15 +53,15 @@ def own_lab(root: Path) -> OwnLab | None:
     return found
 
 
-def served_fidelity(root: Path) -> str | None:
-    """Return the fidelity in which the bench of the lab in `root` is served; None where it is not."""
+def served(root: Path) -> Capabilities | None:
+    """Return what the process can do that serves the bench of the lab in `root`; None where none does."""
     socket = _served(root)
     if socket is None:
         return None
     from pico.edge.link.client import Line
 
     able: Capabilities = Line(socket).call("describe")
-    return able.fidelity
+    return able
 
 
 @contextmanager

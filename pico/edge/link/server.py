@@ -1,4 +1,4 @@
-"""Serves an edge to other processes of the same user: `python -m pico.edge.link.server LAB`.
+"""Serves an edge to other processes of the same user: what `pico edge` does.
 
 A run that was started here ends by itself, whoever listens. A lease that a client took is given back once its
 connection ends, and what it waits for is waited for no more.
@@ -6,17 +6,14 @@ connection ends, and what it waits for is waited for no more.
 
 from __future__ import annotations
 
-import argparse
 import asyncio
 import os
 import signal
-import sys
 from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pico.backends.devices import EMULATED, SIMULATOR
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -201,37 +198,9 @@ async def _mind(edge: LocalEdge) -> None:
                 await edge.release(await edge.acquire("the end of an arming"))
 
 
-def edge_of(root: Path, backend: str, fidelity: str) -> LocalEdge:
-    """Return the edge to be served of the lab in `root`, by the Lab that its bench keeps, else by the lab's files."""
+def edge_of(root: Path, backend: str, fidelity: str | None = None) -> LocalEdge:
+    """Return the edge to be served of the lab in `root`, by the Lab that its bench keeps, else by the lab's files;
+    without `fidelity` in the lab's own. Raises PicoError."""
     lab = own_lab.read(root) or own_lab.proposed(root)
-    return embedded(own_lab.setup_of(lab), root, backend, fidelity, lab)
-
-
-def _say(text: str) -> None:
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
-
-
-def main() -> int:
-    """Serve the bench of a lab."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("lab", type=Path)
-    parser.add_argument("--backend", default=SIMULATOR)
-    parser.add_argument("--emulate", action="store_true", help="with --backend hardware: emulators of the devices")
-    parser.add_argument("--fidelity", choices=("kinematic", "physics"), default="kinematic")
-    given = parser.parse_args()
-    try:
-        edge = edge_of(given.lab, EMULATED if given.emulate else given.backend, given.fidelity)
-        with suppress(KeyboardInterrupt):
-            asyncio.run(
-                serve(edge, lambda: _say(f"{given.lab.resolve().name} is served ({given.fidelity}); Ctrl-C ends that"))
-            )
-            _say(f"{given.lab.resolve().name} is served no more")
-    except PicoError as exc:
-        sys.stderr.write(f"{exc}\n")
-        return int(exc.exit_code)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    setup = own_lab.setup_of(lab)
+    return embedded(setup, root, backend, fidelity or setup.lab.sim.fidelity, lab)
