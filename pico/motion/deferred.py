@@ -13,11 +13,14 @@ from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
 class DeferredMotion:
     """A `Motion` that makes the real one at the first question."""
 
-    def __init__(self, setup: Setup) -> None:
-        self._setup = setup
+    def __init__(self, setup: Setup, arms: Motion | None = None) -> None:
+        """`arms`: these instead of new ones."""
+        self._setup, self._given = setup, arms
 
     @cached_property
     def _arms(self) -> Motion:
+        if self._given is not None:
+            return self._given
         from pico.motion.arms import ArmMotion
 
         return ArmMotion(self._setup)

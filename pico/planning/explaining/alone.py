@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, error
 from pico.geometry import capture_disc, separation
+from pico.model.pose import Pose
 from pico.motion.types import Blocked
 from pico.planning.checks.target import Source, located
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
 from pico.planning.ordering.solve import Refusal
+from pico.planning.parts.movers import Hold
 from pico.planning.parts.phrases import listed
 
 
@@ -86,7 +89,9 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
     standing = source(f"slots.{place.slot}") if place.slot else None  # where it stands now is in no state
     address, blame = f"{mover.name}.pose", standing if stands else located(source, mover)
     hits = [(h, hit) for p in places for h in mover.holds for hit in table.finger_hits(i, p, h)]
-    reach = [b for p in places for h in mover.holds if (b := table.unreachable(i, p, h))]
+    holds = sorted(mover.holds, key=lambda h: _away(table, h, place.pose))  # the nearest arm is told of
+    reach = [b for p in places for h in holds if (b := table.unreachable(i, p, h))]
+    reach.sort(key=lambda b: b.obstacle is None)
     free = [h for h in mover.holds if not any(hold == h for hold, _ in hits)]
     if reach and (free or not hits):
         by_hand = "by hand: " if stands and reach[0].kind == "reach" else ""
@@ -104,6 +109,12 @@ def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source:
         "blocked", f"{where}: a finger of the gripper would touch {listed(names)} {touch}, every grasp yaw tried",
         hint=f"move {listed(names, 'or')} away first, or leave more room there", address=address, source=blame,
     )  # fmt: skip
+
+
+def _away(table: Conflicts, hold: Hold, pose: Pose) -> float:
+    """Return how far a place is from the base of the arm of a hold [mm]."""
+    mount = table.setup.lab.robots[hold.robot].mount if hold.robot else None
+    return math.hypot(pose.x - mount.x, pose.y - mount.y) if mount else 0.0
 
 
 def _struck(blocked: Blocked) -> str:

@@ -73,7 +73,7 @@ def storage_note(answer: OrderedMoves) -> list[Diagnostic]:
     return [Diagnostic(
         severity="note", code="storage",
         summary=f"{more} more staging move{'s' if more > 1 else ''} than with more room in storage",
-        hint=f"with {answer.slots} free slots within reach {answer.least} would do",
+        hint=f"with {answer.slots} free slot{'s' if answer.slots > 1 else ''} within reach {answer.least} would do",
     )]  # fmt: skip
 
 

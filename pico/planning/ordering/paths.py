@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from pico.model.observation import Observation
 from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
@@ -118,16 +118,18 @@ class Arms:
     def __init__(self, table: Conflicts, steps: Sequence[OrderedMove], seen: Observation, motion: Motion) -> None:
         self.parks: list[Park] = []
         self.stuck: NoPath | None = None
-        """The first step after which an arm can't park; an arm that was found standing somewhere may stay there."""
+        """The first step after which an arm can't park, or for which one that was found standing there can't; where it
+        is in nobody's way, it may stay there."""
         self.joints: dict[str, Joints | None] = {name: robot.joints for name, robot in seen.robots.items()}
         self._table, self._steps, self._motion = table, steps, motion
         self._zones = shared_zones(table.setup)
+        self._full = {name for name, robot in seen.robots.items() if robot.holding}
         self._since: dict[str, list[int]] = {name: [] for name in sorted(self.joints) if self._astray(name)}
 
     def _astray(self, robot: str) -> bool:
-        """Whether an arm was left where arms meet, and not at its park pose."""
+        """Whether an arm was left where arms meet, its hand empty, and not at its park pose."""
         joints, arm = self.joints[robot], self._table.setup.lab.robots.get(robot)
-        if not joints or arm is None or arm.model != "xarm7":
+        if not joints or arm is None or arm.model != "xarm7" or robot in self._full:
             return False
         zones = (z for z in self._zones if robot in z.robots)
         astray = not arm.is_parked(joints)
@@ -159,13 +161,20 @@ class Arms:
         self.parks.append(Park(robot, steps, before, path))
         if isinstance(path, MovePath):
             self.joints[robot] = path.end
-        elif path is not None and steps and self.stuck is None:
-            self.stuck = self._left_behind(self._steps[max(steps)], path, places_before(self._table, done, len(done)))
+        elif path is not None and self.stuck is None and (steps or before is not None):
+            step = self._steps[max(steps) if steps else before or 0]
+            self.stuck = self._left_behind(step, path if steps else _in_the_way(robot, path), done)
 
-    def _left_behind(self, step: OrderedMove, blocked: Blocked, places: Sequence[int]) -> NoPath:
-        movers = self._table.movers
+    def _left_behind(self, step: OrderedMove, blocked: Blocked, done: Sequence[OrderedMove]) -> NoPath:
+        movers, places = self._table.movers, places_before(self._table, done, len(done))
         spots = [(j, p) for j, p in enumerate(places) if movers[j].name == blocked.obstacle and j != step.mover]
         return NoPath(step, blocked, spots[0] if spots else None)
+
+
+def _in_the_way(robot: str, park: Blocked) -> Blocked:
+    """Why another arm can't come where one was found standing that has no way out."""
+    text = f"{robot} was stopped where it would have to pass, and can't park, as {park.text}"
+    return replace(park, text=text, segment=None)
 
 
 def _path(worlds: Worlds, k: int, joints: Joints | None, motion: Motion) -> MovePath | NoPath:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence, Set
+from collections.abc import Container, Sequence, Set
 from dataclasses import dataclass, replace
 from heapq import nsmallest
 
@@ -161,7 +161,7 @@ def strangers(seen: Observation) -> list[Obstacle]:
     return found
 
 
-def standing_obstacles(setup: Setup, seen: Observation, moving: Mapping[str, Mover]) -> list[Obstacle]:
+def standing_obstacles(setup: Setup, seen: Observation, moving: Container[str]) -> list[Obstacle]:
     """Return everything on the table that is not `moving`."""
     parts = []
     for name, part in seen.components.items():

@@ -20,6 +20,9 @@ def actors(draft: Draft) -> tuple[tuple[Mover, ...], list[Obstacle], list[Diagno
         held = [n for n in names if setup.movable(n)]
         names = [n for n in names if n not in held]
         put_off += [warning("blocked", f"{n} is not moved: no gripper is free", address=n) for n in held]
+    unserved = {n: why for n in names if (why := _out_of_hand(draft, n))}
+    names = [n for n in names if n not in unserved]
+    put_off += [warning("blocked", f"{n} is not moved: {why}", address=n) for n, why in unserved.items()]
     while True:
         movers = {n: _mover(draft, n, right=False) for n in names}
         obstacles = standing_obstacles(setup, seen, movers)
@@ -33,6 +36,28 @@ def actors(draft: Draft) -> tuple[tuple[Mover, ...], list[Obstacle], list[Diagno
             return tuple(movers.values()), obstacles, put_off
         put_off += lost
         names = [n for n in names if n not in {d.address for d in lost}]
+
+
+def _out_of_hand(draft: Draft, name: str) -> str:
+    """Return why no arm with a free gripper gets to a part, or to where it is to go, if that is for an arm that holds
+    something; else empty."""
+    motion, setup = draft.motion, draft.setup
+    busy = sorted({*setup.lab.robots} - {*draft.robots})
+    if not motion or not busy or not draft.robots or not setup.movable(name):
+        return ""
+    one = _mover(draft, name, right=False)
+    for places, where in (((0,), "to it"), (one.goals, "to where it is to go")):
+        poses = [one.places[p].pose for p in places]
+        free, taken = (
+            [motion.reach(robot, name, pose, 0.0) for robot in robots for pose in poses]
+            for robots in (draft.robots, busy)
+        )
+        if None in free:
+            continue
+        barred = next((b.text for b in free if b and b.obstacle in busy), "")
+        if barred or any(b is None or b.obstacle in busy for b in taken):
+            return barred or f"no arm with a free gripper gets {where}"
+    return ""
 
 
 def _mover(draft: Draft, name: str, *, right: bool) -> Mover:

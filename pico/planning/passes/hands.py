@@ -4,15 +4,22 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from pico.model.observation import astray
 from pico.planning.checks.emission import lets_out
 from pico.planning.parts.setdown import park_operation, parked_first, set_downs
 from pico.planning.passes.draft import Draft
 
 
 def hands_emptied(draft: Draft) -> Draft:
-    """Return the plan with what empties the hands; the bench is seen as it then is."""
+    """Return the plan with what empties the hands; the bench is seen as it then is, and the arms that stay where they
+    stand are in the way of the others."""
     found = set_downs(draft.setup, draft.seen, draft.motion)
-    return replace(draft, seen=found.seen, operations=found.operations).told(*found.diagnostics)
+    draft = replace(draft, seen=found.seen, operations=found.operations).told(*found.diagnostics)
+    if not any(astray(draft.setup, found.seen)) and not any(hand.holding for hand in found.seen.robots.values()):
+        return draft
+    from pico.planning.parts.standing_arms import beside_standing
+
+    return replace(draft, motion=beside_standing(draft.setup, found.seen, draft.motion))
 
 
 def hands_first(draft: Draft) -> Draft:

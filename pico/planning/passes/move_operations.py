@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, error, warning
+from pico.diagnostics import Diagnostic, warning
 from pico.model.operation import Operation, Reason, new_id
 from pico.model.record import as_json
 from pico.motion.types import Blocked, MovePath
@@ -71,9 +71,8 @@ def _park(item: Item, own: Sequence[Operation]) -> Operation | Diagnostic:
     assert item.park is not None
     robot, path = item.park.robot, item.park.path
     if isinstance(path, Blocked):
-        if item.park.before is None:  # one that was found standing there: where a move would end so there is no plan
-            return warning("not-parked", f"{robot} can't park: {path.text}", address=robot)
-        return error("blocked", f"{robot} can't park: {path.text}", address=robot)
+        # found standing there, in nobody's way: where it is in one's, or a move would end so, there is no plan
+        return warning("not-parked", f"{robot} can't park: {path.text}", address=robot)
     waited = {e for op in own for e in op.after}
     return Operation(
         id=new_id(), primitive="park", component=robot, robot=robot,
