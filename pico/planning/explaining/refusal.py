@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, error
-from pico.geometry import fits
+from pico.geometry import Grid, fits
+from pico.model.catalog import Footprint
 from pico.model.plan import Blocking
-from pico.planning.checks.target import Source, located
+from pico.planning.checks.target import Source, Standing, Standpoint, located, nearest_free
 from pico.planning.explaining.alone import alone_refused, no_path
 from pico.planning.explaining.certificate import stored_would_do
 from pico.planning.explaining.proof import Proof, stuck_of
@@ -120,7 +121,7 @@ def _room(table: Conflicts, names: Sequence[str], slots: int, blocking: Sequence
     setup, waits = table.setup, [n for n in names if blocking is None or n in stored]
     inventory, by_hand = setup.lab.inventory, [name for name in waits if not setup.movable(name)]
     if by_hand and len(by_hand) == len(waits):
-        return f"put {by_hand[0]} at a free place for now (`pico move {by_hand[0]} x=... y=...`), then plan again"
+        return _put_aside(table, by_hand)
     allowed = [name for name in names if inventory[name].stage == "never"]
     if waits and set(waits) <= set(allowed):
         return f"allow staging of {listed(waits, 'or')}, with one slot free within reach"
@@ -128,6 +129,28 @@ def _room(table: Conflicts, names: Sequence[str], slots: int, blocking: Sequence
     if allowed and len(allowed) < 6:
         return f"free {enough}, or allow staging of {listed(allowed, 'or')}"
     return f"free {enough}, or leave more room between them"
+
+
+ROOM = 60.0
+"""How far from all else a person puts a part down for now [mm]: fingers have room between them."""
+
+
+def _put_aside(table: Conflicts, names: Sequence[str]) -> str:
+    """Return which of some parts that only people move can be put aside for now, and where: clear of everybody at
+    start and goal."""
+    ends = {n: Standpoint(n, o.shape, False, o.height) for n, o in table.obstacles.items()}
+    for i, mover in enumerate(table.movers):
+        for p in (0, *mover.goals):
+            ends[f"{mover.name} {p}"] = Standpoint(mover.name, table.shape(i, p), True, mover.geometry.height)
+    standing = Standing(ends, Grid.of({key: end.shape for key, end in ends.items()}))
+    for mover in (m for name in names for m in table.movers if m.name == name):
+        here, radius = replace(mover, goals=(0,)), mover.geometry.footprint.radius
+        roomy = replace(here, geometry=replace(mover.geometry, footprint=Footprint(disc=radius + ROOM)))
+        if free := nearest_free(table.setup, roomy, standing) or nearest_free(table.setup, here, standing):
+            name, (x, y) = mover.name, free
+            where = f"at x = {x:g}, y = {y:g} for now (`pico move {name} x={x:g} y={y:g}`)"
+            return f"put {name} {where}, then plan again"
+    return f"take {names[0]} off the table for now, then plan again"
 
 
 def _lines(

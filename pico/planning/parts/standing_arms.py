@@ -57,7 +57,9 @@ def _staying(setup: Setup, seen: Observation, motion: Motion) -> Iterator[Standi
 
 def _shut_in(setup: Setup, seen: Observation, robot: str, motion: Motion) -> Blocked | None:
     """Return why an arm has no way to its park pose even where all that an arm may move is gone; None where it has."""
-    moving = {n for n, c in seen.components.items() if n in setup.lab.inventory and setup.movable(n) and c.presence == "seen"}
+    moving = {
+        n for n, c in seen.components.items() if n in setup.lab.inventory and setup.movable(n) and c.presence == "seen"
+    }
     standing = {o.name: o.standing for o in standing_obstacles(setup, seen, moving)}
     found = motion.park(robot, seen.robots[robot].joints, standing)
     return found if isinstance(found, Blocked) else None

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
 from certificates import faults
 from checker import check
 from planning_benches import bench, part, planned, see, want
@@ -12,6 +16,7 @@ from pico.model.lab import Box2, KeepOut, Margins, Slot, Tether
 from pico.model.plan import Blocking, Plan
 from pico.model.pose import Pose
 from pico.model.robot import Gripper, Mount, Robot
+from pico.planning.explaining.refusal import storage_note
 
 
 def test_an_overlap_names_both_the_depth_and_the_nearest_free_place() -> None:
@@ -209,3 +214,10 @@ def test_where_slots_do_not_suffice_the_refusal_says_how_many_would() -> None:
     made = planned(setup, seen, want({"a": (250, 363, 90), "b": (313, 363, 90), "c": (376, 363, 90)}))
     (found,) = made.diagnostics
     assert "free 2 slots within reach that take them" in found.hint
+
+
+@pytest.mark.parametrize(("slots", "says"), [(1, "with 1 free slot within"), (2, "with 2 free slots within")])
+def test_a_note_on_storage_counts_slots(slots: int, says: str) -> None:
+    answer: Any = SimpleNamespace(staged=2, least=1, slots=slots)
+    (note,) = storage_note(answer)
+    assert note.hint == f"{says} reach 1 would do"

@@ -7,7 +7,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from planning_benches import Places, bench, one, part, planned, see, want
+from planning_benches import Places, bench, moves, one, part, planned, see, want
 
 from pico.diagnostics import Diagnostic, PicoError, Position, SourceRange, error, warning
 from pico.model.catalog import Footprint
@@ -166,7 +166,9 @@ def test_who_swaps_what_only_people_move_is_told_to_put_one_aside() -> None:
     setup = bench({n: part(seating="bolted") for n in spots})
     swapped = want({"a": spots["b"], "b": spots["a"]})
     (found,) = planned(setup, see(setup, spots), swapped).diagnostics
-    assert found.hint == "put a at a free place for now (`pico move a x=... y=...`), then plan again"
+    assert found.hint == "put a at x = 165, y = 300 for now (`pico move a x=165 y=300`), then plan again"
+    aside = planned(setup, see(setup, {**spots, "a": (165, 300)}), swapped)
+    assert not aside.errored and moves(aside) == [("b", "300,300"), ("a", "400,300")]
     assert not planned(setup, see(setup, spots | {"a": (600, 300)}), swapped).errored
 
 

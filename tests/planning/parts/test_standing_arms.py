@@ -83,7 +83,6 @@ def test_what_only_a_full_hand_could_move_is_left_and_the_rest_planned() -> None
 
 
 def test_what_nobody_could_move_is_refused_as_ever() -> None:
-    setup, motion = benches()
     (found,) = [d for d in goes(with_a_full_hand(), b=(1200, 860)).diagnostics if d.severity == "error"]
     assert found.code == "unreachable" and "from arm2's base" in found.summary
 
