@@ -1,14 +1,17 @@
 """The vendor's library, imported when it is needed and kept to itself.
 
 As it comes it prints to the terminal, from threads of its own, changes the timeout of every new socket of the process
-(`socket.setdefaulttimeout`), prefers a Unix socket in the temporary directory to the address that it was given, and
-may look for its control box for minutes. Reports it takes only from the vendor's port numbers.
+(`socket.setdefaulttimeout`), makes a folder for logs in the user's home, prefers a Unix socket in the temporary
+directory to the address that it was given, and may look for its control box for minutes. Reports it takes only from the
+vendor's port numbers.
 """
 
 from __future__ import annotations
 
 import asyncio
+import builtins
 import logging
+import os
 import socket
 import sys
 import threading
@@ -27,6 +30,8 @@ OPENING = 1.5
 """How long it may take until a control box has said what it is, and reported once [s]."""
 
 _LOCK, _IMPORTING = threading.Lock(), threading.Lock()
+_LOG = "xarm.core.utils.log"
+"""The module of the library that makes a folder when it is imported."""
 
 
 class _Sockets:
@@ -35,6 +40,13 @@ class _Sockets:
     def __getattr__(self, name: str) -> object:
         """What `socket` has; the library sets the timeout of each of its own sockets as well."""
         return _ignored if name == "setdefaulttimeout" else getattr(socket, name)
+
+
+class _System:
+    """The module `os` for the vendor's library, which makes no folder."""
+
+    def __getattr__(self, name: str) -> object:
+        return _ignored if name == "makedirs" else getattr(os, name)
 
 
 def library() -> Any:
@@ -65,7 +77,8 @@ def _library() -> Any:
 
 
 def _quiet(name: str, path: Sequence[str] | None, target: object = None) -> ModuleSpec | None:
-    """Find a module of the library, and let it begin with a `print` of its own, that does nothing."""
+    """Find a module of the library, and let it begin with a `print` of its own, that does nothing; the one that makes a
+    folder with an `os` of its own, too."""
     spec = PathFinder.find_spec(name, path) if name.startswith("xarm.") else None
     if spec is None or spec.loader is None:
         return None
@@ -73,10 +86,17 @@ def _quiet(name: str, path: Sequence[str] | None, target: object = None) -> Modu
 
     def unheard(module: ModuleType) -> None:
         module.__dict__["print"] = _ignored
+        if name == _LOG:
+            module.__dict__["__builtins__"] = {**vars(builtins), "__import__": _imported}
         run(module)
 
     spec.loader.exec_module = unheard  # type: ignore[method-assign]
     return spec
+
+
+def _imported(name: str, *how: Any, **more: Any) -> object:
+    """What `import` gives, but for `os`."""
+    return _System() if name == "os" else builtins.__import__(name, *how, **more)
 
 
 async def imported(name: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import os
 import socket
 import subprocess
 import sys
@@ -116,6 +117,17 @@ print(words + 1, file=sys.stderr)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines() == ["heard"] * int(done.stderr)
+
+
+def test_a_bench_that_is_opened_prints_nothing_and_leaves_nothing_in_a_home(tmp_path: Path) -> None:
+    code = """
+from pico.drivers.registry import Buses
+from pico.model.wiring import DeviceEntry
+Buses().opened("arm1", DeviceEntry(driver="xarm.arm", address={"host": "127.0.0.1"}))
+"""
+    run = [sys.executable, "-c", code]
+    done = subprocess.run(run, capture_output=True, text=True, check=True, env={**os.environ, "HOME": str(tmp_path)})
+    assert (done.stdout, done.stderr, list(tmp_path.iterdir())) == ("", "", [])
 
 
 def test_without_the_vendors_library_its_extra_is_named(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
