@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from typing import TYPE_CHECKING, Any
 
 from pico.drivers.bus import Bus
@@ -17,39 +18,58 @@ if TYPE_CHECKING:
 
 REPLY = 2000
 """How long a picture may take beyond its exposure [ms]."""
+_GRAB = 4.9
+"""How long a picture may take in all [s]."""
+_RENDERED = 4.0
+"""How long an emulated one's picture may take to be drawn [s]."""
 _EXPOSURE = 0.02
 """How far the exposure that is read back may be from what was set: cameras round it [of itself]."""
 
 
-def _opened(entry: DeviceEntry) -> Any:
-    from pypylon import pylon
+class _Link:
+    """An open camera that grabs; an emulated one is `asked` for its picture before each trigger, and has it then."""
 
-    wanted = pylon.DeviceInfo()
-    wanted.SetSerialNumber(str(entry.address["serial"]))
-    camera = pylon.InstantCamera(pylon.TlFactory.GetInstance().CreateFirstDevice(wanted))
-    camera.Open()
-    if images := entry.address.get("images"):  # before it grabs: then these are locked
-        camera.TestImageSelector.Value = "Off"
-        camera.ImageFileMode.Value = "On"
-        camera.ImageFilename.Value = str(images)
-    for node, value in entry.settings.items():
-        camera.GetNodeMap().GetNode(node).FromString(str(value))
-    camera.TriggerSelector.Value = "FrameStart"
-    camera.TriggerMode.Value = "On"
-    camera.TriggerSource.Value = "Software"
-    camera.StartGrabbing(pylon.GrabStrategy_LatestImageOnly)
-    return camera
+    def __init__(self, entry: DeviceEntry) -> None:
+        from pypylon import pylon
 
+        wanted = pylon.DeviceInfo()
+        wanted.SetSerialNumber(str(entry.address["serial"]))
+        self.camera = camera = pylon.InstantCamera(pylon.TlFactory.GetInstance().CreateFirstDevice(wanted))
+        camera.Open()
+        self._asked: socket.socket | None = None
+        if images := entry.address.get("images"):  # before it grabs: then these are locked
+            self._asked = socket.create_connection(("127.0.0.1", int(entry.address["asks"])), _RENDERED)
+            camera.TestImageSelector.Value = "Off"
+            camera.ImageFileMode.Value = "On"
+            camera.ImageFilename.Value = str(images)
+            camera.Width.Value, camera.Height.Value = int(entry.address["width"]), int(entry.address["height"])
+        for node, value in entry.settings.items():
+            camera.GetNodeMap().GetNode(node).FromString(str(value))
+        camera.TriggerSelector.Value = "FrameStart"
+        camera.TriggerMode.Value = "On"
+        camera.TriggerSource.Value = "Software"
+        camera.StartGrabbing(pylon.GrabStrategy_LatestImageOnly)
 
-def _closed(camera: Any) -> None:
-    camera.StopGrabbing()
-    camera.Close()
+    def trigger(self) -> None:
+        """Have a picture taken now."""
+        if self._asked is not None:
+            self._asked.sendall(b"picture\n")
+            if self._asked.recv(64) != b"ready\n":
+                raise OSError("what emulates it is gone")
+        self.camera.ExecuteSoftwareTrigger()
+
+    def close(self) -> None:
+        """Let go of it."""
+        if self._asked is not None:
+            self._asked.close()
+        self.camera.StopGrabbing()
+        self.camera.Close()
 
 
 class Camera:
     """A camera."""
 
-    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Any]) -> None:
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[_Link]) -> None:
         self.name, self._limits = name, entry.limits
         self._line = Line(name, bus, entry.identity, _identity)
 
@@ -63,11 +83,11 @@ class Camera:
                 require_within(self.name, what, value, limits, unit)
         longest = (exposure or 0.0) / 1000
 
-        def take(camera: Any) -> np.ndarray:
-            self._set(camera, exposure, gain)
-            return _taken(camera, REPLY + round(longest * 1000))
+        def take(link: _Link) -> np.ndarray:
+            self._set(link.camera, exposure, gain)
+            return _taken(link, REPLY + round(longest * 1000))
 
-        return await self._line.ask("take a picture", take, within=min(REPLY / 1000 + longest + 1, 5.0))
+        return await self._line.ask("take a picture", take, within=_GRAB)
 
     def _set(self, camera: Any, exposure: float | None, gain: float | None) -> None:
         if exposure is not None:
@@ -85,14 +105,15 @@ class Camera:
         await self._line.close()
 
 
-def _taken(camera: Any, within: int) -> np.ndarray:
+def _taken(link: _Link, within: int) -> np.ndarray:
     """Return the picture of one trigger; what came before it is thrown away. Raises what pypylon raises."""
     from pypylon import pylon
 
+    camera = link.camera
     while camera.GetGrabResultWaitObject().Wait(0):
         camera.RetrieveResult(0, pylon.TimeoutHandling_Return).Release()
     camera.WaitForFrameTriggerReady(within, pylon.TimeoutHandling_ThrowException)
-    camera.ExecuteSoftwareTrigger()
+    link.trigger()
     result = camera.RetrieveResult(within, pylon.TimeoutHandling_ThrowException)
     try:
         if not result.GrabSucceeded():
@@ -103,14 +124,17 @@ def _taken(camera: Any, within: int) -> np.ndarray:
         result.Release()
 
 
-def _identity(camera: Any) -> Identity:
-    said = camera.GetDeviceInfo()
+def _identity(link: _Link) -> Identity:
+    said = link.camera.GetDeviceInfo()
     return Identity(vendor=said.GetVendorName(), model=said.GetModelName(), serial=said.GetSerialNumber())
 
 
 CAMERA = Driver(
-    kind="camera", made=Camera, opened=_opened, closed=_closed,
-    address={"serial": "its serial number", "images": "a folder of pictures, which an emulated one shows"},
+    kind="camera", made=Camera, opened=_Link, closed=_Link.close,
+    address={
+        "serial": "its serial number", "images": "a folder of pictures, which an emulated one shows",
+        "asks": "a port at which it is asked to put them there", "width": "of them", "height": "of them",
+    },
     bus=("serial",), properties={"exposure": "ms", "gain": "dB", "frame": "count"},
     needs=("pypylon.pylon", "basler"), maturity="emulated", emulator="basler",
 )  # fmt: skip

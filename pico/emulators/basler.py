@@ -1,5 +1,6 @@
-"""A Basler camera: the vendor's own emulation within pypylon, which shows the pictures in a folder in turn. They are
-replaced whenever what is behind it has another `frame` (rows, columns), 8 or 16 bit.
+"""A Basler camera: the vendor's own emulation within pypylon, which shows the pictures in a folder in turn. What triggers
+it says so at a port of ours first: then they are replaced by what is behind the camera, its `frame` (rows, columns), 8
+or 16 bit.
 
 Two files, both replaced: of one alone it would read what was there when grabbing began. Nothing else may lie there.
 """
@@ -8,7 +9,6 @@ from __future__ import annotations
 
 import os
 import tempfile
-import threading
 from collections.abc import Mapping
 from itertools import count
 from pathlib import Path
@@ -18,58 +18,64 @@ import cv2
 import numpy as np
 
 from pico.emulators.behind import Behind, Emulator
+from pico.emulators.serving import TcpServed
 from pico.model.wiring import DeviceEntry
 
 MOST = 16
 """How many cameras a process may emulate: how many there are is told to the vendor's library before it begins."""
-LOOK = 0.02
-"""How often it is looked whether there is another frame [s]."""
 _DARK = np.zeros((480, 640), np.uint8)
+_FAST = (cv2.IMWRITE_PNG_COMPRESSION, 0)
 _free = count()
 
 
 class Shown:
-    """One emulated camera, and the thread that keeps its pictures as what is behind it."""
+    """One emulated camera, and the conversation that has its pictures replaced: each line is answered by `ready`."""
 
     def __init__(self, behind: Behind) -> None:
         os.environ.setdefault("PYLON_CAMEMU", str(MOST))
-        self._behind = behind
+        self._behind, self._last = behind, np.zeros(0)
         self._folder = tempfile.TemporaryDirectory(prefix="pico-camera-")
         top = Path(self._folder.name)
         self._images, self._spare = top / "images", top / "spare.png"
         self._images.mkdir()
-        self._last: Any = None
-        self._replace()
-        self.address: dict[str, str | int] = {"serial": f"0815-{next(_free) % MOST:04X}", "images": str(self._images)}
-        self.identity = {
-            "vendor": "Basler",
-            "model": "Emulation",
-            "serial": str(self.address["serial"]),
-            "firmware": "",
-        }
-        self._closing = threading.Event()
-        self._thread = threading.Thread(target=self._keep, daemon=True, name="pico-emulator")
-        self._thread.start()
+        width, height = behind.read("pixels") or self._replace().shape[1::-1]
+        self._served = TcpServed(lambda: self)
+        serial = f"0815-{next(_free) % MOST:04X}"
+        self.identity = {"vendor": "Basler", "model": "Emulation", "serial": serial, "firmware": ""}
+        self.address: dict[str, str | int] = {
+            "serial": serial, "images": str(self._images), "asks": int(self._served.address["port"]),
+            "width": int(width), "height": int(height),
+        }  # fmt: skip
+        if not self._last.size:
+            self._show(np.zeros((height, width), np.uint8))
 
-    def _keep(self) -> None:
-        while not self._closing.wait(LOOK):
+    def heard(self, data: bytes) -> bytes:
+        """Replace the pictures for each line."""
+        asked = data.count(b"\n")
+        if asked:
             self._replace()
+        return b"ready\n" * asked
 
-    def _replace(self) -> None:
+    def due(self) -> bytes:
+        """Nothing is said unasked."""
+        return b""
+
+    def _replace(self) -> Any:
         frame = self._behind.read("frame")
-        if frame is self._last and self._last is not None:
-            return
+        frame = _DARK if frame is None else frame
+        if frame is not self._last:
+            self._show(frame)
+        return frame
+
+    def _show(self, frame: Any) -> None:
         self._last = frame
         for name in ("a.png", "b.png"):
-            cv2.imwrite(str(self._spare), _DARK if frame is None else frame)
+            cv2.imwrite(str(self._spare), frame, _FAST)
             self._spare.replace(self._images / name)
-        if frame is None:
-            self._last = _DARK
 
     def close(self) -> None:
         """End it, and take its pictures away."""
-        self._closing.set()
-        self._thread.join(2)
+        self._served.close()
         self._folder.cleanup()
 
 

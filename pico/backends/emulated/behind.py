@@ -117,7 +117,9 @@ class OfCamera:
         return self._world.now()
 
     def read(self, what: str) -> Any:
-        """`frame`: a picture (rows, columns), uint8, taken now."""
+        """`frame`: a picture (rows, columns), uint8, taken now; `pixels`: its width and height."""
+        if what == "pixels":
+            return self._world.setup.lab.cameras[self._camera].pixels
         return self._eyes.picture(self._camera) if what == "frame" else self._own.get(what)
 
     def write(self, what: str, value: Any) -> None:
