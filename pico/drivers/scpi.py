@@ -132,7 +132,7 @@ class Lamp(Spoken):
 
     async def shine(self, on: bool) -> bool:
         command = f"OUTP {'ON' if on else 'OFF'},(@{self._entry.address['relay']})"
-        await self._line.ask("switch the lamp", lambda visa: visa.tell(command))
+        await self._line.ask("switch the lamp", lambda visa: visa.told(command))
         return on
 
 

@@ -36,6 +36,12 @@ class Visa:
         """Send a command that has no reply."""
         self.resource.write(command)
 
+    def told(self, command: str) -> None:
+        """Send a command that has no reply, and ask whether it was taken; raises ValueError where it was not."""
+        self.tell(command)
+        if not (said := self.ask("SYST:ERR?")).startswith(("0", "+0")):
+            raise ValueError(f"it answers `{command}` by {said[:60]}")
+
     def number(self, question: str) -> float:
         """Return the reply as a number; raises ValueError where it is none."""
         return float(self.ask(question))

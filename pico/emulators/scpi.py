@@ -137,18 +137,18 @@ def _contacts(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> TcpServed:
     relays: dict[int, Callable[[bool], None]] = {}
     for entry, behind in devices.values():
         if "relay" in entry.address:
-            relays[int(entry.address["relay"])] = _switch(behind)
+            relays[int(entry.address["relay"])] = _switch(behind, "on" if entry.driver == "scpi.lamp" else "open")
         if "channel" in entry.address:
             shut = entry.driver == "scpi.shutter"
             channels[int(entry.address["channel"])] = _shut(behind) if shut else _contact(behind)
     return _served(devices, Contacts(channels, relays))
 
 
-def _switch(behind: Behind) -> Callable[[bool], None]:
+def _switch(behind: Behind, what: str) -> Callable[[bool], None]:
     def switch(on: bool) -> None:
         behind.write("relay", on)
         if behind.read("stuck") is None:
-            behind.write("open", on)
+            behind.write(what, on)
 
     return switch
 

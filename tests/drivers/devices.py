@@ -29,6 +29,8 @@ class Case:
     """Another value of the same, that the world may come to have meanwhile."""
     tells: bool = True
     """Whether it raises where it can't read; a safety input reads unsafe instead."""
+    silent: bool = False
+    """Whether it tells nothing of itself, so that `reads` switches it off instead."""
 
 
 async def _power(meter: Any) -> float:
@@ -95,6 +97,13 @@ CASES = {
         _box("switches.shutter"), {"open": False}, lambda shutter: shutter.is_open(), False, other=True,
         moves=lambda shutter: shutter.open(True), moved=("open", True)),
     "switches.input": Case(_box("switches.input"), {"safe": True}, _safe, True, other=False),
+    "scpi.lamp": Case(
+        DeviceEntry(driver="scpi.lamp", emulator="scpi.contacts", address={"visa": "", "relay": 2}, identity=WHO),
+        {"on": False}, lambda lamp: lamp.shine(False), False, other=False, moves=lambda lamp: lamp.shine(True),
+        moved=("on", True), silent=True),
+    "switches.lamp": Case(
+        _box("switches.lamp"), {"on": False}, lambda lamp: lamp.shine(False), False, other=False,
+        moves=lambda lamp: lamp.shine(True), moved=("on", True), silent=True),
     "frames.camera": Case(
         DeviceEntry(driver="frames.camera", emulator="frames", address={"host": "", "port": 0},
                     identity={"serial": "7"}),
