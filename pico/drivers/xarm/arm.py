@@ -5,9 +5,10 @@ from __future__ import annotations
 import asyncio
 import math
 import socket
+import time
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -24,10 +25,13 @@ from pico.drivers.xarm.settings import FENCE, PROPERTIES, differing, settings
 from pico.drivers.xarm.streaming import BRAKE, Stream
 from pico.model.wiring import DeviceEntry
 
+T = TypeVar("T")
 ASTRAY = 0.02
 """How far from a path's first posture an arm may stand to follow it [rad]."""
 _MOVING, _STOPPED, _RESET = 1, 4, 5
 _BY_THE_BOX, _BY_SET_POINTS = 0, 1
+_REPORTED = 1.5
+"""How long it may take until what was told is reported [s]."""
 _RETURNED = 0.5
 """How long after a stop it may take until the arm is at rest [s]."""
 
@@ -136,19 +140,16 @@ class XArm:
             self._ask(link, what, call, *more)
         self._require_inside(link)
         self._ask(link, "put up its fence", lambda: link.arm.set_fence_mode(True))
-        link.await_reports(2)  # the one that was on its way may be older than what was told
-        if wrong := differing(self.name, self.settings, link.arm):
+        if wrong := _reported(link, lambda: differing(self.name, self.settings, link.arm)):
             raise PicoError(wrong)
         self._line.require_running(stops, "it was to get ready")
         self._ask(link, "enable its motors", lambda: link.arm.motion_enable(True))
         self._start(link)
-        link.await_reports(2)
         self._ready_link = link
-        found = self._state(link)
-        if not found.enabled:
+        if _reported(link, lambda: not self._state(link).enabled):
             self._ready_link = None
             raise PicoError(error("arm-refused", f"{self.name} did not enable its motors", address=self.name))
-        return found
+        return self._state(link)
 
     def _configuration(self, link: Link) -> list[tuple[str, Callable[[], Any], tuple[int, ...]]]:
         """What it is told, in order. What changes how it moves resets the box, which then is "not ready" (9), as it
@@ -225,6 +226,16 @@ class XArm:
         self._ask(link, "clear its fault", link.arm.clean_error, 1)
         if still := link.fault():  # asked: what the library has may be 0.2 s old
             raise PicoError(told(self.name, still))
+
+
+def _reported(link: Link, wrong: Callable[[], T]) -> T:
+    """Return what is wrong by what a box reports, as soon as that is nothing: reports that were on their way, or that
+    this machine was too busy to read, are older than what was told."""
+    link.await_reports(2)
+    ends = time.monotonic() + _REPORTED
+    while (found := wrong()) and time.monotonic() < ends:
+        link.await_reports(1)
+    return found
 
 
 def _lost(link: Link) -> None:

@@ -7,6 +7,7 @@ import contextlib
 import io
 import re
 import threading
+from collections import deque
 from collections.abc import Callable
 
 import pytest
@@ -14,11 +15,16 @@ from xarm_rig import Rig, rigged
 
 from pico.diagnostics import PicoError
 from pico.drivers.xarm.faults import BOX, GRIPPER, clearable, told
+from pico.emulators.xarm import server
+from pico.emulators.xarm.control_box import ControlBox
+from pico.emulators.xarm.reports import report
 
 with contextlib.redirect_stdout(io.StringIO()):
     from xarm.core.config.x_code import ControllerErrorCodeMap, GripperErrorCodeMap
 
 LOST = "no answer|reported nothing|closed the connection|did not answer|failed when it was asked|was lost"
+LATE = 30
+"""How many reports are on their way, at ten times real pace."""
 
 
 @pytest.mark.parametrize("number", [n for n in ControllerErrorCodeMap if isinstance(n, int)])
@@ -216,3 +222,19 @@ def test_two_arms_do_not_hear_each_others_reports(rig: Rig) -> None:
     assert rig.do(rig.arm.state()).joints == pytest.approx(rig.emulator.joints, abs=1e-5)
     rig.do(second.arm.close())
     other.close()
+
+
+def test_reports_that_are_older_than_what_was_told_are_no_refusal(rig: Rig, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A machine that was busy reads what was reported a while ago."""
+    waiting: dict[int, deque[bytes]] = {}
+
+    def late(port: int, box: ControlBox) -> bytes:
+        queue = waiting.setdefault(port, deque([report(port, box)] * LATE))
+        queue.append(report(port, box))
+        return queue.popleft()
+
+    rig.do(rig.arm.connect())
+    rig.emulator.box.settings.fence = False
+    monkeypatch.setattr(server, "report", late)
+    assert rig.do(rig.arm.ready()).enabled
+    assert rig.emulator.box.settings.fence
