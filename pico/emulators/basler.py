@@ -1,6 +1,6 @@
-"""A Basler camera: the vendor's own emulation within pypylon, which shows the pictures in a folder in turn. What triggers
-it says so at a port of ours first: then they are replaced by what is behind the camera, its `frame` (rows, columns), 8
-or 16 bit.
+"""A Basler camera: the vendor's own emulation within pypylon, which shows the pictures in a folder in turn. Who
+triggers it says so at a port of ours first: then they are replaced by what is behind the camera, its `frame` (rows,
+columns), 8 or 16 bit.
 
 Two files, both replaced: of one alone it would read what was there when grabbing began. Nothing else may lie there.
 """
