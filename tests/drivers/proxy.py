@@ -1,5 +1,5 @@
 """What goes wrong on a wire: a proxy between a client and an emulator, on a TCP port or a serial line, that drops,
-delays, duplicates, truncates and garbles what the device says, freezes, and cuts the link."""
+delays, duplicates, truncates and garbles what the device says, freezes, cuts the link, or takes nobody (`gone`)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Literal
 
-Fault = Literal["none", "dropped", "delayed", "duplicated", "truncated", "garbage", "frozen"]
+Fault = Literal["none", "dropped", "delayed", "duplicated", "truncated", "garbage", "frozen", "gone"]
 FAULTS: tuple[Fault, ...] = ("dropped", "delayed", "duplicated", "truncated", "garbage", "frozen")
 LATE = 2.5
 """How much later a delayed reply comes [s]: after the client has given up on it."""
@@ -88,6 +88,9 @@ class Proxy:
                 for key, _ in waiting.select(0.005):
                     if key.data is None:
                         front, _ = self._listening.accept()
+                        if self.faults.fault == "gone":
+                            front.close()
+                            continue
                         back = socket.create_connection(self._back)
                         self._pairs.append((front, back))
                         waiting.register(front, selectors.EVENT_READ, (back, False))
@@ -105,7 +108,7 @@ class Proxy:
             data = link.recv(65536)
             if data and reply:
                 self.faults.said(data, other.sendall)
-            elif data and self.faults.fault != "frozen":
+            elif data and self.faults.fault not in ("frozen", "gone"):
                 self.faults.heard.append(data)
                 other.sendall(data)
         except OSError:
@@ -126,7 +129,7 @@ class Proxy:
                     data = os.read(key.fd, 4096)
                     if key.data:
                         self.faults.said(data, lambda said: os.write(self._ours, said))
-                    elif self.faults.fault != "frozen":
+                    elif self.faults.fault not in ("frozen", "gone"):
                         self.faults.heard.append(data)
                         os.write(back, data)
         for end in (self._ours, self._theirs, back):
