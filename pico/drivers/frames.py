@@ -2,14 +2,16 @@
 an emulated bench has.
 
 A request is a line of JSON, `{"do": "identify", "id": 7}` or `{"do": "grab", "id": 8, "exposure": 2.5, "gain": 0}` (ms,
-dB; each may be missing); the answer is a line of JSON with the same `id`, of a frame with its `shape` and `dtype` and
-then its bytes, row by row. An answer that comes twice, or too late, is none to the next request.
+dB; each may be missing); the answer is a line of JSON with the same `id`, of a frame with its `shape`, its `dtype` and
+the `crc32` of its bytes, and then these, row by row. An answer that comes twice, or too late, is none to the next
+request, and a frame that came otherwise than it was sent is none.
 """
 
 from __future__ import annotations
 
 import json
 import socket
+import zlib
 from typing import TYPE_CHECKING, Any
 
 from pico.drivers.bus import Bus
@@ -50,6 +52,8 @@ class FrameLink:
         data = self._file.read(size)
         if len(data) != size:
             raise ValueError("it hung up in the middle of a frame")
+        if data and said.get("crc32") != zlib.crc32(data):
+            raise ValueError("a frame came otherwise than it was sent")
         return said, data
 
     def close(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import zlib
 from collections.abc import Mapping
 from typing import Any
 
@@ -43,6 +44,7 @@ class Frames:
             return _line({**said, "error": "there is no picture"})
         data: bytes = picture.tobytes()
         about = {**said, "shape": list(picture.shape), "dtype": picture.dtype.name, "bytes": len(data)}
+        about["crc32"] = zlib.crc32(data)
         return _line(about) + data
 
 

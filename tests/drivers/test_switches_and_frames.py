@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import socket
 import threading
+import zlib
 from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 import pytest
 
 from pico.diagnostics import PicoError
+from pico.drivers.frames import FrameLink
 from pico.drivers.registry import Buses
 from pico.emulators.behind import Alone
 from pico.emulators.registry import EmulatedBench
@@ -106,6 +108,25 @@ def test_a_frame_comes_as_it_was_taken(kind: str) -> None:
 def test_a_camera_without_a_picture_says_so() -> None:
     with emulated({"left": entry("frames.camera")}, Alone()) as bench, pytest.raises(PicoError, match="no picture"):
         asked(bench, "left", lambda one: one.grab())
+
+
+def test_a_frame_that_came_otherwise_than_it_was_sent_is_none() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+
+        def serve() -> None:
+            link, _ = server.accept()
+            with link:
+                link.recv(1000)
+                crc = zlib.crc32(b"abcd")
+                link.sendall(b'{"id": 1, "shape": [2, 2], "dtype": "uint8", "bytes": 4, "crc32": %d}\nabcE' % crc)
+
+        thread = threading.Thread(target=serve)
+        thread.start()
+        link = FrameLink("127.0.0.1", server.getsockname()[1])
+        with pytest.raises(ValueError, match="otherwise than it was sent"):
+            link.ask(do="grab")
+        link.close()
+        thread.join(5)
 
 
 @pytest.mark.parametrize(
