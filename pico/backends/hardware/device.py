@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -39,6 +40,8 @@ if TYPE_CHECKING:
 
 LOST = 6
 """Pictures that are asked of a camera over the bench before none comes; of those that come black TRIES."""
+PATIENCE = 2.0
+"""After how long [s] one that failed is not asked again."""
 PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
 T = TypeVar("T")
 
@@ -132,11 +135,12 @@ class HardwareDevice:
     async def _frame(self, bench: Instruments, name: str, region: Region | None = None) -> Frame:
         """Return a picture of a camera over the table, of a region of its sensor; taken again while it is black, and
         where it got lost."""
+        began = time.monotonic()
         for left in reversed(range(LOST)):
             try:
                 gray = grayed(await bench.cameras[name].grab())
             except PicoError:
-                if not left:
+                if not left or time.monotonic() - began > PATIENCE:
                     raise
                 continue
             u, v, width, height = region or (0, 0, gray.shape[1], gray.shape[0])

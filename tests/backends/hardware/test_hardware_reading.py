@@ -10,7 +10,10 @@ from typing import Any
 import pytest
 from emulated_lab import wired_lab
 
+from pico.backends.hardware import device
+from pico.backends.hardware.device import HardwareDevice
 from pico.backends.hardware.instruments import Instruments, require_whole, unwired, wired
+from pico.backends.hardware.links import Links
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.tunables import Motorized
@@ -130,3 +133,23 @@ def test_a_bench_that_lacks_what_nothing_works_without_says_so(setup: Setup, wit
     with pytest.raises(PicoError) as caught:
         require_whole(setup, entries, kinds)
     assert said in caught.value.diagnostics[0].detail
+
+
+@pytest.mark.parametrize(("patience", "asked"), [(60.0, 6), (0.0, 1)])
+def test_a_camera_that_fails_is_asked_again_but_not_for_long(
+    setup: Setup, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, patience: float, asked: int
+) -> None:
+    grabs = list[str]()
+
+    class Silent:
+        async def grab(self) -> None:
+            grabs.append("left")
+            raise LOST
+
+    bench = Instruments()
+    bench.cameras["left"] = Silent()  # type: ignore[assignment]
+    monkeypatch.setattr(device, "PATIENCE", patience)
+    about = HardwareDevice(setup, tmp_path, Links(setup, tmp_path, "hardware"), "kinematic", clock=lambda: "")
+    with pytest.raises(PicoError):
+        asyncio.run(about._frame(bench, "left"))
+    assert len(grabs) == asked
