@@ -67,8 +67,10 @@ class Stream:
     def _work(self) -> None:
         try:
             self._run()
-        except BaseException as exc:
+        except (PicoError, ConnectionError) as exc:
             self.done.set_exception(exc)
+        except Exception as exc:  # whatever the library makes of an answer that is none
+            self.done.set_exception(ConnectionError(f"its answer makes no sense: {exc or type(exc).__name__}"))
         else:
             self.done.set_result(self._wanted)
 

@@ -7,13 +7,15 @@ import json
 import signal
 import subprocess
 import sys
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 from xarm_rig import HOME, SERIAL, rigged
 
 from pico.diagnostics import PicoError
-from pico.drivers.xarm.streaming import PERIOD
+from pico.drivers.xarm.streaming import PERIOD, Stream
 from pico.emulators.xarm.server import XArmEmulator
 
 
@@ -72,3 +74,15 @@ def test_a_process_that_is_frozen_or_killed_is_noticed(how: signal.Signals) -> N
         rig.do(rig.arm.close())
         process.kill()
         loop.close()
+
+
+def test_an_answer_of_which_the_library_makes_no_sense_is_a_lost_link_and_no_crash() -> None:
+    def garbled(*asked: object, **how: object) -> None:
+        raise IndexError("index out of range")
+
+    link: Any = SimpleNamespace(require_heard=lambda: None, ask=garbled, arm=None)
+    path: Any = SimpleNamespace(at=lambda place: [0.0] * 7, seconds=1.0)
+    stream = Stream("arm1", link, path, doing="op3", pace=1.0, set_points=True)
+    stream.start()
+    with pytest.raises(ConnectionError, match="makes no sense: index out of range"):
+        stream.done.result(5)
