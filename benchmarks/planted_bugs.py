@@ -13,10 +13,12 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
+CRASHING = ROOT / "tests" / "execution" / "crashing.py"
 
 
 @dataclass(frozen=True)
@@ -84,8 +86,9 @@ does not start because its status is not `done`. Hunted and printed all the same
 
 SEARCH = """
 import sys
+from importlib import import_module
 sys.path[:0] = [sys.argv[1], *sys.argv[4:]]
-from crashing import histories
+histories = import_module(sys.argv[2]).histories
 for seed, found in histories(0, int(sys.argv[3])):
     if isinstance(found, Exception):
         print(seed + 1, type(found).__name__, found, sep="\\t")
@@ -107,18 +110,30 @@ def planted(bug: Bug, folder: Path) -> Path:
     return copy
 
 
-def hunt(bug: Bug, seeds: int, folder: Path) -> tuple[int, str] | None:
-    """Return how many seeds it took to find the bug, and by what; None for a survivor."""
-    copy = planted(bug, folder)
-    beside = [str(ROOT / "tests" / "execution")]
-    done = subprocess.run(
-        [sys.executable, "-c", SEARCH, str(copy), "-", str(seeds), *beside], capture_output=True, text=True, check=False
-    )
+def hunt(bug: Bug, seeds: int, folder: Path, simulator: Path = CRASHING) -> tuple[int, str] | None:
+    """Return how many seeds of a simulator (a file with `histories`) it took to find the bug, and by what; None for a
+    survivor."""
+    words = [sys.executable, "-c", SEARCH, planted(bug, folder), simulator.stem, str(seeds), simulator.parent]
+    done = subprocess.run([str(w) for w in words], capture_output=True, text=True, check=False)
     if done.returncode:
         return 1, done.stderr.strip().splitlines()[-1]
     line = done.stdout.strip()
     seed, *what = line.split("\t") if line else ("",)
     return (int(seed), ": ".join(what)) if seed else None
+
+
+def hunted(bugs: Sequence[Bug], harmless: Sequence[Bug], seeds: int, simulator: Path = CRASHING) -> list[str]:
+    """Hunt bugs and print each; return those that nothing found, but for the harmless."""
+    survivors: list[str] = []
+    print(f"{'bug':<44} {'file':<24} {'seeds':>6}  found by")
+    with tempfile.TemporaryDirectory() as folder:
+        for bug in (*bugs, *harmless):
+            found = hunt(bug, seeds, Path(folder), simulator)
+            after, what = found or ("-", "harmless alone: see HARMLESS" if bug in harmless else "NOT FOUND")
+            print(f"{bug.name:<44} {bug.file:<24} {after:>6}  {what[:90]}", flush=True)
+            survivors += [] if found or bug in harmless else [bug.name]
+    print(f"\n{len(bugs) - len(survivors)} of {len(bugs)} bugs found within {seeds} seeds each")
+    return survivors
 
 
 def main() -> int:
@@ -127,17 +142,8 @@ def main() -> int:
     parser.add_argument("--seeds", type=int, default=2000)
     parser.add_argument("--only", default="")
     given = parser.parse_args()
-    survivors: list[str] = []
-    hunted = [bug for bug in BUGS if given.only in bug.name]
-    print(f"{'bug':<44} {'file':<24} {'seeds':>6}  found by")
-    with tempfile.TemporaryDirectory() as folder:
-        for bug in (*hunted, *(bug for bug in HARMLESS if given.only in bug.name)):
-            found = hunt(bug, given.seeds, Path(folder))
-            seeds, what = found or ("-", "harmless alone: see HARMLESS" if bug in HARMLESS else "NOT FOUND")
-            print(f"{bug.name:<44} {bug.file:<24} {seeds:>6}  {what[:90]}", flush=True)
-            survivors += [] if found or bug in HARMLESS else [bug.name]
-    print(f"\n{len(hunted) - len(survivors)} of {len(hunted)} bugs found within {given.seeds} seeds each")
-    return 1 if survivors else 0
+    bugs, harmless = ([bug for bug in some if given.only in bug.name] for some in (BUGS, HARMLESS))
+    return 1 if hunted(bugs, harmless, given.seeds) else 0
 
 
 if __name__ == "__main__":
