@@ -2,62 +2,19 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from itertools import islice
+from collections.abc import Callable, Mapping, Sequence
 
 from pico.diagnostics import Diagnostic, SourceRange, error
-from pico.geometry import (
-    Grid,
-    Shape,
-    capture_disc,
-    conflict,
-    finger_height,
-    finger_zones,
-    fits,
-    moved,
-    outline,
-    overhang,
-    placed,
-    reaches,
-    separation,
-)
+from pico.geometry import Grid, Shape, conflict, fits, moved, overhang, separation
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.motion.reach import out_of_reach
-from pico.planning.parts.movers import Hold, Mover, Obstacle, Place, turned
+from pico.motion.types import Motion
+from pico.planning.checks.free_places import Trial, free_slots, nearest_free, trial_of
+from pico.planning.checks.standing import Standing, Standpoint, forbidden, goal_shape, in_bounds
+from pico.planning.parts.movers import Mover, Obstacle, Place
 from pico.planning.parts.phrases import listed
 
 Source = Callable[[str], SourceRange | None]
-
-WAYS = (
-    (-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0),
-    *((math.cos(math.radians(15 * n)), math.sin(math.radians(15 * n))) for n in range(24) if n % 6),
-)  # fmt: skip
-"""Directions in which a free place is looked for: along x and y first, then every 15 degrees."""
-
-
-@dataclass(frozen=True, slots=True)
-class Standpoint:
-    """Where something stands in the end, and how tall it is [mm]: a mover at its goal, or what stays."""
-
-    name: str
-    shape: Shape
-    moves: bool
-    height: float
-
-
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """Everything that stands on the table in the end, by name."""
-
-    ends: Mapping[str, Standpoint]
-    grid: Grid[str]
-
-    def near(self, mover: Mover, shape: Shape, margin: float) -> list[Standpoint]:
-        """Return what comes nearer than `margin` mm to a shape that a mover needs."""
-        return [self.ends[name] for name in self.grid.conflicts(shape, margin) if name != mover.name]
 
 
 def no_source(_: str) -> SourceRange | None:
@@ -77,13 +34,15 @@ def check_target(
     source: Source = no_source,
     *,
     alone: bool = False,
+    motion: Motion | None = None,
 ) -> list[Diagnostic]:
     """Return an error for each mover that can't stand at its goal, whatever the order: beside what stays and the
-    goals of the others, on the table, outside of keep-outs, in its slot. `alone`: where nothing else is to move."""
+    goals of the others, on the table, outside of keep-outs, in its slot. `alone`: where nothing else is to move.
+    With `motion` a place is offered instead only where an arm brings the part there."""
     ends = {o.name: Standpoint(o.name, o.shape, False, o.height) for o in obstacles}
     ends |= {m.name: Standpoint(m.name, goal_shape(m, m.goal), True, m.geometry.height) for m in movers}
     standing = Standing(ends, Grid.of({name: end.shape for name, end in ends.items()}))
-    others = {m.name: m for m in movers}
+    others, trial = {m.name: m for m in movers}, trial_of(movers, obstacles, motion)
     found: list[Diagnostic] = []
     told: set[frozenset[str]] = set()
     for mover in movers:
@@ -91,13 +50,8 @@ def check_target(
         for other in _overlaps(setup, mover, standing.grid, others):
             if frozenset((mover.name, other)) not in told:
                 told.add(frozenset((mover.name, other)))
-                found.append(_overlap(setup, mover, ends[other], standing, source, alone))
+                found.append(_overlap(setup, mover, ends[other], standing, source, alone, trial))
     return found
-
-
-def goal_shape(mover: Mover, place: Place) -> Shape:
-    """Return the footprint of a mover at a place."""
-    return placed(mover.geometry.footprint, place.pose)
 
 
 def _overlaps(setup: Setup, mover: Mover, grid: Grid[str], others: Mapping[str, Mover]) -> list[str]:
@@ -106,7 +60,7 @@ def _overlaps(setup: Setup, mover: Mover, grid: Grid[str], others: Mapping[str, 
     margin = setup.lab.margins.body
     places = [mover.places[goal] for goal in mover.goals]
     hits: list[list[str]] = []
-    for place in [p for p in places if _in_bounds(setup, mover, p)] or places:
+    for place in [p for p in places if in_bounds(setup, mover, p)] or places:
         shape = goal_shape(mover, place)
         near = sorted(n for n in grid.near(shape, margin) if n != mover.name)
         hits.append([n for n in near if _always_meets(shape, margin, grid.shapes[n], others.get(n))])
@@ -121,15 +75,9 @@ def _always_meets(shape: Shape, margin: float, stands: Shape, other: Mover | Non
     return all(conflict(shape, end, margin) for end in ends)
 
 
-def _in_bounds(setup: Setup, mover: Mover, place: Place) -> bool:
-    shape = goal_shape(mover, place)
-    on_table = setup.lab.beside_table(place.slot) or overhang(setup.lab.table, shape) <= 0
-    return on_table and not _forbidden(setup, mover, shape)
-
-
 def _overlap(
-    setup: Setup, mover: Mover, other: Standpoint, standing: Standing, source: Source, alone: bool
-) -> Diagnostic:
+    setup: Setup, mover: Mover, other: Standpoint, standing: Standing, source: Source, alone: bool, trial: Trial
+) -> Diagnostic:  # fmt: skip
     margin = setup.lab.margins.body
     shape = goal_shape(mover, mover.goal)
     gap = separation(shape, other.shape)
@@ -143,8 +91,8 @@ def _overlap(
         what = f"it would come within {gap:.3g} mm of {other.name}, and {margin:.3g} mm must stay free"
     return error(
         "impossible", f"{mover.name} cannot stand at {_spot(mover.goal)}: {what}", detail=f"{where}; {need}",
-        hint=_way_out(setup, mover, other, standing, alone), address=f"{mover.name}.pose", label=f"{where}; {need}",
-        source=located(source, mover),
+        hint=_way_out(setup, mover, other, standing, alone, trial), address=f"{mover.name}.pose",
+        label=f"{where}; {need}", source=located(source, mover),
     )  # fmt: skip
 
 
@@ -167,12 +115,16 @@ def room_between(a: Shape, b: Shape, margin: float) -> tuple[float, str]:
     return round(high, 2), axis
 
 
-def _way_out(setup: Setup, mover: Mover, other: Standpoint, standing: Standing, alone: bool) -> str:
+def _way_out(
+    setup: Setup, mover: Mover, other: Standpoint, standing: Standing, alone: bool, trial: Trial
+) -> str:  # fmt: skip
     ways = []
+    if kept := trial.kept(mover):
+        return f"no other place would do: {kept.text}" + (f"; {kept.help}" if kept.help else "")
     if mover.goal.slot:
-        free_ones = _free_slots(setup, mover, standing)
+        free_ones = free_slots(setup, mover, standing, trial)
         ways.append(f"choose a free slot: {listed(free_ones, 'or')}" if free_ones else "no slot is free for it")
-    elif free := nearest_free(setup, mover, standing):
+    elif free := nearest_free(setup, mover, standing, trial):
         ways.append(f"nearest free place {_place_text(mover.goal.pose, free)}")
     if other.name not in setup.lab.inventory:
         ways.append(f"take {other.name} away by hand")
@@ -180,18 +132,7 @@ def _way_out(setup: Setup, mover: Mover, other: Standpoint, standing: Standing, 
         ways.append(f"give {other.name} another place")
     elif setup.movable(other.name):
         ways.append(f"move {other.name} first")
-    return "; or ".join(ways)
-
-
-def _free_slots(setup: Setup, mover: Mover, standing: Standing) -> list[str]:
-    """Return the nearest slots that take a mover, where it would touch nothing, three at most."""
-    slots, footprint, goal = setup.lab.slots, mover.geometry.footprint, mover.goal.pose
-    near = sorted(slots, key=lambda name: (slots[name].pose.distance(goal), name))
-    return list(islice((
-        name for name in near
-        if fits(slots[name], footprint) and not standing.near(mover, capture_disc(slots[name]), 0.0)
-        and any(_free(setup, mover, place, standing) for place in turned(setup, name, footprint))
-    ), 3))  # fmt: skip
+    return "; or ".join(ways) or "choose a place farther away: no arm was found to bring it to one near by"
 
 
 def _place_text(pose: Pose, free: tuple[float, float]) -> str:
@@ -202,67 +143,13 @@ def _place_text(pose: Pose, free: tuple[float, float]) -> str:
     return f"is x = {free[0]:g}, y = {free[1]:g}"
 
 
-def nearest_free(setup: Setup, mover: Mover, standing: Standing) -> tuple[float, float] | None:
-    """Return the nearest free place (x, y) for a mover [mm], where fingers have room around it, looked for in every
-    direction of `WAYS` in steps of 1 mm, in whole mm where it is not beside the goal; along x wins a tie. None where
-    there is none on the table."""
-    pose = mover.goal.pose
-    for step in range(1, int(max(setup.lab.table.size)) + 1):
-        for east, north in WAYS:
-            x = round(pose.x + step * east) if east else pose.x
-            y = round(pose.y + step * north) if north else pose.y
-            if _free(setup, mover, Place(Pose(x, y, pose.yaw)), standing):
-                return float(x), float(y)
-    return None
-
-
-def _free(setup: Setup, mover: Mover, place: Place, standing: Standing) -> bool:
-    """Whether a mover may stand at a place beside everything else, and a hand that may move it gets there."""
-    shape = goal_shape(mover, place)
-    if not _in_bounds(setup, mover, place) or standing.near(mover, shape, setup.lab.margins.body):
-        return False
-    if not _reached(setup, mover, shape):
-        return False
-    return not mover.holds or any(_gripped(setup, mover, hold, place.pose, standing) for hold in mover.holds)
-
-
-def _gripped(setup: Setup, mover: Mover, hold: Hold, pose: Pose, standing: Standing) -> bool:
-    """Whether the fingers of a hold have room around a mover beside everything else."""
-    grasp, lab = mover.geometry.grasp, setup.lab
-    if hold.robot is None or grasp is None:
-        return True
-    gripper = lab.robots[hold.robot].gripper
-    lowest = finger_height(grasp, gripper)
-    for zone in finger_zones(grasp, gripper, hold.yaw, pose):
-        if any(other.height > lowest for other in standing.near(mover, zone, lab.margins.fingers)):
-            return False
-        if any(reaches(k, lowest, math.inf) and conflict(zone, outline(k)) for k in lab.keep_out.values()):
-            return False
-    return True
-
-
-def _reached(setup: Setup, mover: Mover, shape: Shape) -> bool:
-    """Whether a hand that may move it gets there."""
-    robots = [setup.lab.robots[hold.robot] for hold in mover.holds if hold.robot]
-    if len(robots) < len(mover.holds) or any(robot.model != "xarm7" for robot in robots):
-        return True
-    return not out_of_reach(robots, shape.x, shape.y, mover.geometry)
-
-
-def _forbidden(setup: Setup, mover: Mover, shape: Shape) -> list[str]:
-    zones: Iterable[str] = sorted(setup.lab.keep_out)
-    keep_out = setup.lab.keep_out
-    height = mover.geometry.height
-    return [z for z in zones if reaches(keep_out[z], 0.0, height) and conflict(shape, outline(keep_out[z]))]
-
-
 def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
     """Return what is wrong with the goal itself, whatever else stands on the table."""
     found = []
     shape, name, spot = goal_shape(mover, mover.goal), mover.name, _spot(mover.goal)
     address = f"{name}.pose"
     blame = located(source, mover)
-    turns = any(_in_bounds(setup, mover, mover.places[g]) for g in mover.goals)
+    turns = any(in_bounds(setup, mover, mover.places[g]) for g in mover.goals)
     out = 0.0 if turns or setup.lab.beside_table(mover.goal.slot) else overhang(setup.lab.table, shape)
     if out > 0:
         width, depth = setup.lab.table.size
@@ -273,7 +160,7 @@ def _where(setup: Setup, mover: Mover, source: Source) -> list[Diagnostic]:
             hint=f"the table goes from x = 0 to {width:g} and from y = 0 to {depth:g}", address=address,
             source=located(source, mover, axis),
         ))  # fmt: skip
-    for zone in () if turns else _forbidden(setup, mover, shape):
+    for zone in () if turns else forbidden(setup, mover, shape):
         why = setup.lab.keep_out[zone].reason
         found.append(error(
             "impossible", f"{name} cannot stand at {spot}: it would reach into keep-out {zone}",

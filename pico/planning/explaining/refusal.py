@@ -9,7 +9,9 @@ from pico.diagnostics import Diagnostic, error
 from pico.geometry import Grid, fits
 from pico.model.catalog import Footprint
 from pico.model.plan import Blocking
-from pico.planning.checks.target import Source, Standing, Standpoint, located, nearest_free
+from pico.planning.checks.free_places import nearest_free, trial_of
+from pico.planning.checks.standing import Standing, Standpoint
+from pico.planning.checks.target import Source, located
 from pico.planning.explaining.alone import alone_refused, no_path
 from pico.planning.explaining.certificate import stored_would_do
 from pico.planning.explaining.proof import Proof, stuck_of
@@ -142,11 +144,13 @@ def _put_aside(table: Conflicts, names: Sequence[str]) -> str:
     for i, mover in enumerate(table.movers):
         for p in (0, *mover.goals):
             ends[f"{mover.name} {p}"] = Standpoint(mover.name, table.shape(i, p), True, mover.geometry.height)
-    standing = Standing(ends, Grid.of({key: end.shape for key, end in ends.items()}))
+    standing, trial = Standing(ends, Grid.of({key: end.shape for key, end in ends.items()})), trial_of((), (), None)
     for mover in (m for name in names for m in table.movers if m.name == name):
         here, radius = replace(mover, goals=(0,)), mover.geometry.footprint.radius
         roomy = replace(here, geometry=replace(mover.geometry, footprint=Footprint(disc=radius + ROOM)))
-        if free := nearest_free(table.setup, roomy, standing) or nearest_free(table.setup, here, standing):
+        if free := nearest_free(table.setup, roomy, standing, trial) or nearest_free(
+            table.setup, here, standing, trial
+        ):
             name, (x, y) = mover.name, free
             where = f"at x = {x:g}, y = {y:g} for now (`pico move {name} x={x:g} y={y:g}`)"
             return f"put {name} {where}, then plan again"

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry import Grid
-from pico.planning.checks.target import check_target, goal_shape
+from pico.planning.checks.standing import goal_shape
+from pico.planning.checks.target import check_target
 from pico.planning.parts.movers import Mover, Obstacle, mover, standing_obstacles
 from pico.planning.passes.draft import Draft
 

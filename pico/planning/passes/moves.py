@@ -26,7 +26,7 @@ def moves_ordered(draft: Draft) -> Draft:
     if not movers:
         return draft
     setup, goal = draft.setup, draft.goal
-    impossible = check_target(setup, movers, obstacles, goal.source, alone=bool(goal.alone))
+    impossible = check_target(setup, movers, obstacles, goal.source, alone=bool(goal.alone), motion=draft.motion)
     impossible += check_tethers(setup, movers, goal.source)
     if impossible:
         return replace(draft, blocking=standing_proof(setup, movers, obstacles, draft.motion)).told(*impossible)
