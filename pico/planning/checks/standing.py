@@ -47,4 +47,5 @@ def in_bounds(setup: Setup, mover: Mover, place: Place) -> bool:
 def forbidden(setup: Setup, mover: Mover, shape: Shape) -> list[str]:
     """Return the keep-outs that a part would reach into."""
     keep_out, height = setup.lab.keep_out, mover.geometry.height
-    return [z for z in sorted(keep_out) if reaches(keep_out[z], 0.0, height) and conflict(shape, outline(keep_out[z]))]
+    zones = sorted(keep_out)
+    return [z for z in zones if reaches(keep_out[z], 0.0, height) and conflict(shape, outline(keep_out[z]))]
