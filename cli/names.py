@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "commission": "taking a real bench into use",
     "serve": "serving a bench to others",
     "remote": "benches elsewhere",
     "lease": "who has a bench",
@@ -33,8 +32,8 @@ RESERVED = {
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
-    "stash", "swap", "budget", "devices",
-    "edge",
+    "stash", "swap", "budget", "devices", "edge",
+    "commission",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

@@ -7,8 +7,9 @@ that owns it (`pico.edge`).
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
+from pico.model.commissioning import Basis
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, OperationResult
@@ -42,6 +43,15 @@ class Capabilities:
     unmodelled: tuple[str, ...] = ()
     simulated: bool = False
     kept: bool = True
+
+
+@runtime_checkable
+class Commissioned(Protocol):
+    """A device that a person must have commissioned before a laser above class 2 emits there."""
+
+    async def basis(self) -> Basis:
+        """Return what a report of it would be of now; raises PicoError for what does not answer."""
+        ...
 
 
 class Device(Protocol):

@@ -46,11 +46,16 @@ async def _answer(buses: Buses, name: str, entry: DeviceEntry) -> Answer:
         kind = driver(entry.driver).kind
         instrument = buses.opened(name, entry)
         identity = await instrument.connect()
-        reads = await _READ[kind](instrument)
+        reads = await reading(kind, instrument)
         await instrument.close()
     except PicoError as exc:
         return Answer(identity=identity, diagnostics=tuple(exc.diagnostics))
     return Answer(identity=identity, reads=reads)
+
+
+async def reading(kind: Kind, instrument: Instrument) -> str:
+    """Return in words what an instrument that is connected reads; raises PicoError."""
+    return await _READ[kind](instrument)
 
 
 async def _axis(axis: Any) -> str:

@@ -9,18 +9,20 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.device import Began, Capabilities
-from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.backends.device import Began, Capabilities, Commissioned, Device
+from pico.backends.hardware.report import read
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, warning
 from pico.edge import armings
-from pico.model.arming import LaserClass
+from pico.model.arming import Arming, LaserClass
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
 from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
+from pico.optics.audit.limits import above_class_2
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import above, lets_out, licensed, may_shine, refused, uncovers, why_not
-from pico.policy import arming
+from pico.policy import arming, commissioning
 
 if TYPE_CHECKING:
     from pico.edge.attempts import Executing
@@ -63,14 +65,42 @@ def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[D
     return ()
 
 
-def with_licences(setup: Setup, root: Path, able: Capabilities, now: str, seen: Observation) -> Observation:
+async def uncommissioned(setup: Setup, root: Path, able: Capabilities, device: Device, now: str) -> tuple[str, ...]:
+    """Return in words why lasers above class 2 stay shut on a bench that a person must have commissioned; empty where
+    one has, or nothing of the sort is asked for. Raises PicoError for instruments that do not answer."""
+    if not isinstance(device, Commissioned) or arming.waived(setup, able.evidence):
+        return ()
+    basis = await device.basis()
+    try:
+        report = read(root, able.name)
+    except PicoError as exc:
+        return (exc.diagnostics[0].summary,)
+    return commissioning.why_not(report, able.name, basis, now)
+
+
+async def require_commissioned(setup: Setup, root: Path, device: Device, now: str, given: Arming) -> None:
+    """Raise PicoError (exit code DENIED) where an arming above class 2 needs a bench that is commissioned."""
+    able = await device.describe()
+    if above_class_2(given.laser_class) and (why := await uncommissioned(setup, root, able, device, now)):
+        raise PicoError(commissioning.refusal(able.name, given.laser, why), ExitCode.DENIED)
+
+
+async def with_licences(
+    setup: Setup, root: Path, able: Capabilities, device: Device, now: str, seen: Observation
+) -> Observation:  # fmt: skip
     """Return the observation with what lets lasers emit now."""
     known = [one.arming for one in armings.kept(root) if one.arming is not None]
     for one in known:
         if not one.seen_over and arming.at_its_end(one, now):
             with suppress(PicoError, OSError):  # a clock that is set back must not bring it back
                 armings.keep(root, replace(one, seen_over=True))
-    return replace(seen, licences=arming.licences(setup, able.evidence, known, able.name, now))
+    found = arming.licences(setup, able.evidence, known, able.name, now)
+    if any(above_class_2(one.laser_class) and one.by for one in found.values()) and (
+        why := await uncommissioned(setup, root, able, device, now)
+    ):
+        said = f"the bench is not commissioned: {why[0]}"
+        found = {name: replace(one, laser_class="2", withheld=said) for name, one in found.items()}
+    return replace(seen, licences=found)
 
 
 def over(setup: Setup, root: Path, now: str) -> dict[str, str]:

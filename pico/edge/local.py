@@ -172,7 +172,7 @@ class LocalEdge:
 
         if self._able is None or self._able[0] is not self.device:
             self._able = self.device, await self.device.describe()
-        return with_licences(self.setup, self.root, self._able[1], self.now(), seen)
+        return await with_licences(self.setup, self.root, self._able[1], self.device, self.now(), seen)
 
     # who may let it emit
 
@@ -185,12 +185,14 @@ class LocalEdge:
     async def arm(self, arming: Arming) -> Arming:
         """Keep an arming, see `pico.edge.protocol.Edge`."""
         from pico.edge.armings import keep
+        from pico.edge.emission import require_commissioned
         from pico.policy.arming import refusal
 
         require_attached(self.root)
         given = replace(arming, backend=(await self.device.describe()).name)
         if wrong := refusal(self.setup, given, self.now()):
             raise PicoError(wrong, ExitCode.DENIED)
+        await require_commissioned(self.setup, self.root, self.device, self.now(), given)
         keep(self.root, given)
         return given
 

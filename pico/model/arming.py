@@ -70,9 +70,11 @@ class Arming:
 @record
 class Licence:
     """What lets a laser emit now: up to `laser_class`, and where a person armed it, `by` whom and until when (`ends`).
-    Without a person it is waived, for nothing is emitted."""
+    Without a person it is waived, for nothing is emitted. `withheld`: why it is for class 2 only, though a person armed
+    it for more."""
 
     laser_class: LaserClass
     by: str = ""
     ends: str = ""
     unattended: bool | None = None
+    withheld: str | None = None

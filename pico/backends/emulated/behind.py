@@ -128,17 +128,17 @@ class OfCamera:
 
 
 class OfInput:
-    """A safety input: safe while nobody is at the table."""
+    """A safety input: safe while nobody is at the table, or has pulled it."""
 
-    def __init__(self, world: EmulatedWorld) -> None:
-        self._world = world
+    def __init__(self, world: EmulatedWorld, device: str) -> None:
+        self._world, self._device = world, device
         self._own: dict[str, Any] = {}
 
     def now(self) -> float:
         return self._world.now()
 
     def read(self, what: str) -> Any:
-        return not self._world.world().person if what == "safe" else self._own.get(what)
+        return self._world.safe(self._device) if what == "safe" else self._own.get(what)
 
     def write(self, what: str, value: Any) -> None:
         self._own[what] = value

@@ -34,7 +34,7 @@ def brought_up(
         if of in setup.lab.robots:
             return OfArm(world, of)
         if kind == "safety input":
-            return OfInput(world)
+            return OfInput(world, name)
         if of in setup.lab.inventory:
             return OfPart(world, name, entry, of, kind)
         return OfCamera(world, of, eyes) if of in setup.lab.cameras else Alone()

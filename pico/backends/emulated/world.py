@@ -46,6 +46,7 @@ class EmulatedWorld:
         self._since = self._world.clock
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
         self._devices = Settings(root, FOLDER, "devices.json")
+        self._pulled: set[str] = set()
         self._arms = arms_of(setup, self._world.seed, known_arms(root))
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
@@ -143,6 +144,14 @@ class EmulatedWorld:
         """Return whether no motor moves an axis any more."""
         with self._lock:
             return f"{component}.{tunable}" in self._world.stuck
+
+    def pull(self, device: str, pulled: bool) -> None:
+        """Pull a safety input by the device that reads it, or put it back; not kept."""
+        (self._pulled.add if pulled else self._pulled.discard)(device)
+
+    def safe(self, device: str) -> bool:
+        """Return whether a safety input is as it should be: nobody is at the table, and nobody pulled it."""
+        return not self._world.person and device not in self._pulled
 
     def recalled(self, device: str, what: str) -> Value | None:
         """Return what a device keeps of itself, as over a loss of its link; None where it was told nothing."""

@@ -16,16 +16,20 @@ from pico.backends.hardware.links import Links
 from pico.backends.hardware.measuring import Readers
 from pico.backends.hardware.pictures import alike, grayed
 from pico.backends.hardware.reading import sensed, told
+from pico.backends.hardware.report import read
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
+from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
+from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
+from pico.motion.types import MovePath
 from pico.planning.checks.interlocks import LAMP
 from pico.twin.arms import TwinArm
 from pico.vision.arm import NOMINAL
@@ -75,6 +79,20 @@ class HardwareDevice:
             primitives=PRIMITIVES, robots=tuple(sorted(self.setup.lab.robots)),
             measurables=frozenset(readers.measurables()), unmodelled=unwired(self.setup, about),
         )  # fmt: skip
+
+    async def basis(self) -> Basis:
+        """Return what a report of a commissioning would be of now; raises PicoError for what does not answer."""
+        who = (await self.links.instruments()).who
+        return basis_of(self.setup, {name: as_json(one) for name, one in who.items()})
+
+    async def most(self) -> float | None:
+        """Return the greatest speed of tools here while nobody has tried their stop [mm/s], None where somebody has."""
+        basis = await self.basis()
+        try:
+            report = read(self.root, self.bench)
+        except PicoError:  # of one that can't be read nobody knows what was tried
+            return NEAR
+        return NEAR if slowly(report, self.bench, basis) else None
 
     # looking
 
@@ -150,12 +168,15 @@ class HardwareDevice:
                 break
         return frame
 
-    def _told(self, bench: Instruments) -> list[Diagnostic]:
+    def _told(self, bench: Instruments, most: float | None) -> list[Diagnostic]:
         """What must be known of the instruments before anything moves."""
         found = []
         if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
             text = f"no device of this bench has {', '.join(without)}: nobody compares or sets that"
             found.append(Diagnostic("note", "no-device", text))
+        if most is not None:
+            text = f"nobody has tried yet how this bench stops: tools move at {most:g} mm/s at most"
+            found.append(Diagnostic("note", CODE, text, hint="`pico commission` walks through it"))
         for robot in sorted(self.links.untried()):
             text = f"the driver of {robot} was never tried on a device: it makes one motion a command, at 50 mm/s"
             hint = "keep a hand on the stop, and look after each motion"
@@ -164,7 +185,7 @@ class HardwareDevice:
 
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
-        found = replace(found, problems=(*found.problems, *self._told(bench)))
+        found = replace(found, problems=(*found.problems, *self._told(bench, await self.most())))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip
@@ -195,7 +216,7 @@ class HardwareDevice:
     async def take(self, token: int, tell: Callable[[Event], None]) -> None:
         """Get the arms ready: faults that may be cleared are, limits, load and collision detection are set and read
         back. Raises PicoError."""
-        bench = await self.links.instruments()
+        bench, most = await self.links.instruments(), await self.most()
         await asyncio.gather(*(_ready(arm) for arm in bench.arms.values()))
         loop = asyncio.get_running_loop()
 
@@ -209,7 +230,7 @@ class HardwareDevice:
         self._session = HardwareSession(
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.root, bench).image,
-            untried=self.links.untried(),
+            untried=self.links.untried(), most=most,
         )  # fmt: skip
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
@@ -220,6 +241,11 @@ class HardwareDevice:
             self._placed[operation.component] = placed_at(self.setup, operation, result)
             remember(self.root, {**recall(self.root, self.bench), **self._placed}, self.bench)
         return result
+
+    async def walk(self, path: MovePath, speed: float) -> None:
+        """Have an arm go along a path, for who has taken the bench and tries it out; see `HardwareSession.walk`."""
+        assert self._session is not None  # only who has taken the device moves
+        await self._session.walk(path, speed)
 
     async def halt(self) -> None:
         """Bring everything under way to its safe end."""

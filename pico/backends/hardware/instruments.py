@@ -11,7 +11,7 @@ from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.tunables import Driven, Emitting, Exposed, Lit, Motorized, Shut
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.driver import Driver
-from pico.drivers.protocols import Arm, Camera, Gripper, Instrument, PowerMeter, SafetyInput
+from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, PowerMeter, SafetyInput
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, SafetyEntry, Wired
 
@@ -34,7 +34,7 @@ class Metered:
 class Instruments:
     """The instruments of a bench: arms and grippers by robot, cameras over the bench by name, cameras in the beam
     (`sensors`) by component, tunables and meters by address, safety inputs by name. `all`: every one, by device;
-    `maturity`: how far the driver of each was tried."""
+    `maturity`: how far the driver of each was tried; `who`: who answered, once they are connected."""
 
     arms: dict[str, Arm] = field(default_factory=dict)
     grippers: dict[str, Gripper] = field(default_factory=dict)
@@ -45,16 +45,19 @@ class Instruments:
     inputs: dict[str, tuple[SafetyEntry, SafetyInput]] = field(default_factory=dict)
     all: dict[str, Instrument] = field(default_factory=dict)
     maturity: dict[str, str] = field(default_factory=dict)
+    who: dict[str, Identity] = field(default_factory=dict)
 
     async def connect(self) -> None:
         """Connect to every one of them; raises PicoError for all that fail at once."""
         found = await asyncio.gather(*(one.connect() for one in self.all.values()), return_exceptions=True)
         wrong: list[Diagnostic] = []
-        for result in found:
+        for name, result in zip(self.all, found, strict=True):
             if isinstance(result, PicoError):
                 wrong += result.diagnostics
             elif isinstance(result, BaseException):
                 raise result
+            else:
+                self.who[name] = result
         if wrong:
             raise PicoError(wrong)
 

@@ -33,6 +33,10 @@ class Emulated(Protocol):
         """Keep it as it is."""
         ...
 
+    def pull(self, device: str, pulled: bool) -> None:
+        """Pull a safety input by the device that reads it, or put it back."""
+        ...
+
 
 BringUp = Callable[["Setup", Path, dict[str, DeviceEntry]], "tuple[Emulated, EmulatedBench]"]
 """Starts emulators of all devices of a lab, and gives them with the world behind."""

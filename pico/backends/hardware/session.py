@@ -17,11 +17,11 @@ from pico.backends.hardware.failing import failed
 from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.setting import driven, ranged
-from pico.backends.hardware.walking import FIRST_SPEED, Way
+from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, ObservedComponent, slot_at
-from pico.model.operation import Operation, OperationResult
+from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
 from pico.model.setup import Setup
@@ -39,16 +39,18 @@ Measuring = Callable[[str, str, list[str]], Awaitable["Measurement"]]
 
 class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
-    `now`: the bench's clock [s]; `untried`: robots whose driver was never tried on a device."""
+    `now`: the bench's clock [s]; `untried`: robots whose driver was never tried on a device; `most`: the greatest
+    speed of tools [mm/s], where a person may be near."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
         tell: Callable[[Event], None], now: Callable[[], float], pause: Callable[[float], Awaitable[None]],
         measure: Measuring, image: Callable[[str], Awaitable[Reading]], untried: frozenset[str] = frozenset(),
+        most: float | None = None,
     ) -> None:  # fmt: skip
         self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
         self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
-        self._untried, self._moved = untried, set[str]()
+        self._untried, self._moved, self._most = untried, set[str](), most
         self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
@@ -77,7 +79,7 @@ class HardwareSession:
         failure: Failed | None = None
         try:
             self._require_running()
-            data = await self._guarded(operation, key)
+            data = await self._guarded(operation, lambda: self._act(operation, key))
         except Failed as exc:
             failure = self._ended() if self._stopped else exc
         except PicoError as exc:
@@ -88,14 +90,14 @@ class HardwareSession:
             data=data,
         )  # fmt: skip
 
-    async def _guarded(self, operation: Operation, key: str) -> Mapping[str, Any]:
+    async def _guarded(self, operation: Operation, act: Callable[[], Coroutine[Any, Any, T]]) -> T:
         """Do what an operation asks for while the safety inputs that concern it are safe; all stops where one is not
         any more."""
         inputs, kinds = self._bench.inputs, concerned(self._setup, operation)
         if not any(entry.kind in kinds for entry, _ in inputs.values()):
-            return await self._act(operation, key)
+            return await act()
         await require_safe(inputs, kinds)
-        acting = asyncio.ensure_future(self._act(operation, key))
+        acting = asyncio.ensure_future(act())
         watching = asyncio.create_task(until_tripped(inputs, kinds))
         try:
             await asyncio.wait([acting, watching], return_when=asyncio.FIRST_COMPLETED)
@@ -106,6 +108,22 @@ class HardwareSession:
             return await acting
         finally:
             watching.cancel()
+
+    async def walk(self, path: MovePath, speed: float) -> None:
+        """Have an arm go along a path that no plan has, with its tool at `speed` [mm/s] at most, for a person who tries
+        it out; with all that is kept to for an operation. Raises Failed."""
+        operation = Operation(
+            id="commission", primitive="park", component=path.robot, robot=path.robot, resources=(path.robot,),
+            reason=Reason(kind="asked"),
+        )  # fmt: skip
+        self._require_running()
+        try:
+            await self._guarded(operation, lambda: self._walked(operation, "commission/commission/1", path, speed))
+        except Failed as exc:
+            raise (self._ended() if self._stopped else exc) from exc
+        except asyncio.CancelledError:  # nobody waits for it any more
+            await self._halt_all()
+            raise
 
     async def idle(self) -> None:
         """Wait until nothing is under way."""
@@ -239,7 +257,7 @@ class HardwareSession:
         await self._walked(operation, key, path)
         return {}
 
-    async def _walked(self, operation: Operation, key: str, path: MovePath) -> None:
+    async def _walked(self, operation: Operation, key: str, path: MovePath, speed: float | None = None) -> None:
         """Have an arm go along a path, with what it shares kept free; ends sooner where it is halted."""
         robot = path.robot
         self._require_one_step(robot)
@@ -251,7 +269,7 @@ class HardwareSession:
             if self._halting:
                 await self._leave(operation, path, stage)
 
-        way = self._way(operation, path, asked)
+        way = self._way(operation, path, asked, speed)
         with self._zones.held(operation, path):
             self._ways[robot] = way
             try:
@@ -263,9 +281,14 @@ class HardwareSession:
             finally:
                 del self._ways[robot]
 
-    def _way(self, operation: Operation, path: MovePath, asked: Callable[[Stage], Awaitable[None]]) -> Way:
+    def _way(
+        self, operation: Operation, path: MovePath, asked: Callable[[Stage], Awaitable[None]],
+        speed: float | None = None,
+    ) -> Way:  # fmt: skip
         robot = path.robot
-        slow = max(1.0, self._setup.lab.robots[robot].fastest / FIRST_SPEED) if robot in self._untried else 1.0
+        fastest = self._setup.lab.robots[robot].fastest if speed is None else speed_of(self._setup, path)
+        most = FIRST_SPEED if robot in self._untried else self._most or fastest
+        slow = max(1.0, fastest / min(most, speed or most))
         arm, gripper = self._bench.arms[robot], self._bench.grippers.get(robot)
         return Way(self._setup, operation, path, arm, gripper, self._arms[robot], asked, slow)
 

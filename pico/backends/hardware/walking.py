@@ -27,6 +27,20 @@ FIRST_SPEED = 50.0
 """The greatest speed of the tool while a driver was never tried on a device [mm/s]."""
 
 
+def speed_of(setup: Setup, path: MovePath) -> float:
+    """Return how fast the tool of an arm is at the fastest along a path as it is timed [mm/s]."""
+    import numpy as np
+
+    from pico.motion.kinematics import tool_pose
+
+    fastest = 0.0
+    for segment in path.segments:
+        at = np.array([tool_pose(setup.lab.robots[path.robot], joints)[:3] for joints in segment.joints])
+        gone, took = np.linalg.norm(np.diff(at, axis=0), axis=1), np.diff(np.array(segment.times))
+        fastest = max(fastest, *(gone[took > 0] / took[took > 0]), 0.0)
+    return float(fastest)
+
+
 class Way:
     """The way of one arm. `asked` is asked before each leg, and ends the way there by what it raises."""
 

@@ -66,7 +66,7 @@ def interrupts(run: Execution, say: Callable[[str], None]) -> Iterator[list[int]
                 carries = any(op.kind.carries for op in run.plan.operations)
                 say(AT_ONCE if at_once else SAFELY if carries else UNMOVED)
 
-    before = _listen(heard)
+    before = listen(heard)
     try:
         yield came
     finally:
@@ -75,8 +75,8 @@ def interrupts(run: Execution, say: Callable[[str], None]) -> Iterator[list[int]
             signal.signal(number, handler)
 
 
-def _listen(heard: Callable[[int, Any], None]) -> dict[int, Any]:
-    """Have `heard` called for the signals that end a run; return what they did before."""
+def listen(heard: Callable[[int, Any], None]) -> dict[int, Any]:
+    """Have `heard` called for the signals that end a run; return what they did before, to be brought back."""
     if threading.current_thread() is not threading.main_thread():
         return {}
     before: dict[int, Any] = {n: signal.getsignal(n) for n in (signal.SIGINT, signal.SIGQUIT, *ENDING)}

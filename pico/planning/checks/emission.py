@@ -136,6 +136,8 @@ def why_not(seen: Observation, laser: str, of: LaserClass) -> str:
     own = (seen.licences or {}).get(laser)
     if own is None:
         return "nobody has armed it"
+    if own.withheld:
+        return own.withheld
     return f"{own.by} armed it for class {own.laser_class} only" if own.by else f"it is no more than {own.laser_class}"
 
 

@@ -1,0 +1,1 @@
+"""Taking a bench into use: a person is walked through it, step by step; a report is kept of what was found."""

@@ -1,0 +1,112 @@
+"""Steps that look: whether the calibration holds, and what moves by itself within hours."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from datetime import datetime
+from typing import Any
+
+from pico.bench.commissioning.standing import HOURS, AtBench, Found, shortened
+from pico.diagnostics import PicoError, error
+from pico.model.commissioning import CODE
+from pico.model.observation import Observation
+from pico.policy.expired import old
+from pico.vision.calibration import read_calibration
+
+FIRST_HAND = ("", "stereo", "known height")
+"""How a pose is known that was seen just now."""
+
+
+def calibration(at: AtBench) -> Found:
+    """There is a calibration, of every camera over the table and every arm, not too old, and what cameras see of the
+    datums now agrees with it. Raises PicoError."""
+    setup, root = at.edge.setup, at.edge.root
+    known = read_calibration(root)
+    if known is None:
+        text = "the lab has no calibration of its cameras and arms"
+        raise PicoError(error(CODE, text, hint="`pico calibrate` makes calibration.json; commit it with the lab"))
+    arms = {name for name, robot in setup.lab.robots.items() if robot.model == "xarm7"}
+    without = sorted((setup.lab.cameras.keys() - known.cameras.keys()) | (arms - known.arms.keys()))
+    wrong = [error(CODE, f"the calibration knows nothing of {name}", address=name) for name in without]
+    lasts = setup.lab.policy.calibrated_for
+    if lasts and known.made_at and old(known.made_at, lasts, at.edge.now()):
+        wrong.append(error("expired", f"the calibration of {known.made_at[:10]} was valid for {lasts}"))
+    seen = at.bench.cameras.scan().observation
+    wrong += [one for one in seen.problems if one.severity == "error"]
+    if wrong:
+        raise PicoError(wrong)
+    age = _hours(known.made_at, at.edge.now()) / 24 if known.made_at else None
+    data = {"made_at": known.made_at, "age_days": age and round(age, 2), "digest": known.digest,
+            "position_mm": known.accuracy.position}  # fmt: skip
+    aged = f"{age:.1f} days old" if age is not None else "of no known date"
+    return Found(told=f"{aged}, a position on the table is known to {known.accuracy.position:.3f} mm", data=data)
+
+
+def drift(at: AtBench) -> Found:
+    """Parts that nobody moves stand where they stood, within the tolerance of each, for `hours`. Begins with a look,
+    and each later one counts; it ends with the first after so many hours. Raises PicoError for what has moved."""
+    now, poses = at.edge.now(), _poses(at.bench.observe())
+    begun, number = at.before, _runs(at)
+    moved = _moved_since(at, int(begun["run"])) if begun else set()
+    was = {name: pose for name, pose in dict(begun.get("poses", {})).items() if name not in moved}
+    if not was:
+        first = {"since": now, "run": number, "poses": poses, "looks": [], "hours": at.hours}
+        if not poses:
+            raise PicoError(error(CODE, "nobody sees any part: nothing to tell drift by"))
+        return Found(told=_until(now, at.hours, 1), data=first, begun=True)
+    shifts = {name: _shift(pose, poses[name]) for name, pose in was.items() if name in poses}
+    most = max(shifts, key=lambda name: shifts[name], default="")
+    look = {"at": now, "part": most, "shift_mm": round(shifts.get(most, 0.0), 4)}
+    data: dict[str, Any] = {**begun, "hours": at.hours, "looks": [*begun["looks"], look], "left_out": sorted(moved)}
+    setup, hours = at.edge.setup, _hours(str(begun["since"]), now)
+    wrong = [
+        error(CODE, f"{name} has moved by {by:.2f} mm within {hours:.1f} h, and nobody moved it", address=name)
+        for name, by in shifts.items()
+        if by > setup.type_of(name).pose.tolerance.position
+    ]
+    wrong += [error(CODE, f"{name} is not seen any more", address=name) for name in sorted(was.keys() - poses.keys())]
+    if wrong:
+        raise PicoError(wrong)
+    if hours < at.hours:
+        return Found(told=_until(str(begun["since"]), at.hours, 1 + len(data["looks"])), data=data, begun=True)
+    greatest = max(data["looks"], key=lambda one: float(one["shift_mm"]))
+    looks = 1 + len(data["looks"])
+    told = f"at most {greatest['shift_mm']:.3f} mm ({greatest['part']}) within {hours:.2f} h, {looks} looks"
+    return Found(told=told + shortened(at.hours, HOURS, "h"), data=data)
+
+
+def _until(since: str, hours: float, looks: int) -> str:
+    return f"begun at {since}, to be looked at again after {hours:g} h; looks so far: {looks}"
+
+
+def _poses(seen: Observation) -> dict[str, list[float]]:
+    return {
+        name: [round(part.pose.x, 4), round(part.pose.y, 4), round(part.pose.yaw, 4)]
+        for name, part in sorted(seen.components.items())
+        if part.presence == "seen" and part.pose is not None and part.how in FIRST_HAND
+    }
+
+
+def _shift(a: Any, b: Any) -> float:
+    return float(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5)
+
+
+def _hours(since: str, now: str) -> float:
+    return (datetime.fromisoformat(now) - datetime.fromisoformat(since)).total_seconds() / 3600
+
+
+def _runs(at: AtBench) -> int:
+    last = at.edge.memory.last() if at.edge.memory else None
+    return last.number if last else 0
+
+
+def _moved_since(at: AtBench, number: int) -> set[str]:
+    """Return the parts that runs after a number were to move."""
+    memory, found = at.edge.memory, set[str]()
+    for run in memory.runs() if memory else ():
+        if run.number > number:
+            plan: Mapping[str, Any] = json.loads((memory and memory.document(run.run)) or "{}")
+            moving = ("move", "stow", "operator", "teleoperate", "optimize")
+            found |= {str(o["component"]) for o in plan.get("operations", ()) if o["primitive"] in moving}
+    return found
