@@ -36,25 +36,36 @@ class EmptiedHands:
 def set_downs(setup: Setup, seen: Observation, motion: Motion | None) -> EmptiedHands:
     """Return the operations that empty the hands, one after the other, and the bench as it then is.
 
-    A part for which there is no place stays in the hand, with a warning that says why.
+    A part for which there is no place stays in the hand, with a warning that says why; one that another hand was in the
+    way of is tried again once that is empty.
     """
-    settled = EmptiedHands(seen)
-    for robot, state in sorted(seen.robots.items()):
-        if state.holding is not None and robot in setup.lab.robots:
-            settled = _emptied(setup, settled, robot, state, motion)
-    return settled
+    settled, told = EmptiedHands(seen), dict[str, Diagnostic]()
+    full = [r for r, hand in sorted(seen.robots.items()) if hand.holding is not None and r in setup.lab.robots]
+    while True:
+        for robot in full:
+            found = _emptied(setup, settled, robot, seen.robots[robot], motion)
+            if isinstance(found, EmptiedHands):
+                settled = found
+                full.remove(robot)
+                break
+            told[robot] = found
+        else:
+            return replace(settled, diagnostics=tuple(told[robot] for robot in full))
 
 
 def _emptied(
     setup: Setup, settled: EmptiedHands, robot: str, hand: ObservedRobot, motion: Motion | None
-) -> EmptiedHands:
+) -> EmptiedHands | Diagnostic:
     seen, name = settled.seen, hand.holding or ""
     part = seen.components.get(name)
     if part is None or part.pose is None or name not in setup.lab.inventory:
-        return replace(settled, diagnostics=(*settled.diagnostics, _stuck(robot, name, "nobody knows how it is held")))
+        return _stuck(robot, name, "nobody knows how it is held")
     obstacles = standing_obstacles(setup, seen, {})
-    why = "no storage slot is free"
-    for place in _places(setup, name, hand, obstacles)[:TRIES]:
+    places = _places(setup, name, hand, obstacles)
+    far = {p: b for p in places if motion and (b := motion.reach(robot, name, p.pose, 0.0))}
+    near = [place for place in places if place not in far]
+    why = far[places[-1]].text if far and not near else "no storage slot is free"
+    for place in near[:TRIES]:
         path = _path(setup, seen, robot, name, place, obstacles, motion)
         if isinstance(path, Blocked):
             why = path.text
@@ -66,7 +77,7 @@ def _emptied(
         robots = {**seen.robots, robot: replace(hand, joints=joints, holding=None)}
         now = replace(seen, components=components, robots=robots)
         return replace(settled, seen=now, operations=(*settled.operations, operation))
-    return replace(settled, diagnostics=(*settled.diagnostics, _stuck(robot, name, why)))
+    return _stuck(robot, name, why)
 
 
 def _operation(
@@ -128,12 +139,20 @@ def parked_first(
     setup: Setup, seen: Observation, rest: Sequence[Operation], motion: Motion | None
 ) -> tuple[Operation, ...]:  # fmt: skip
     """Return the operations after a park of each arm that was stopped on its way with an empty hand, and that none of
-    them uses. An arm that has no way to its park pose is left where it stands."""
+    them uses. An arm that has no way to its park pose, not even once others are parked, is left where it stands."""
     used, parks = {o.robot for o in rest}, list[Operation]()
-    for name in astray(setup, seen):
-        found = _park_path(setup, seen, name, motion)
-        if name not in used and not isinstance(found, Blocked):
-            parks.append(park_operation(setup, seen, name, [p.id for p in parks[-1:]], motion))
+    left = [name for name in astray(setup, seen) if name not in used]
+    while True:
+        for name in left:
+            found = _park_path(setup, seen, name, motion)
+            if not isinstance(found, Blocked):
+                parks.append(park_operation(setup, seen, name, [p.id for p in parks[-1:]], motion))
+                joints = found.end if found else ()
+                seen = replace(seen, robots={**seen.robots, name: replace(seen.robots[name], joints=joints)})
+                left.remove(name)
+                break
+        else:
+            break
     last = tuple(p.id for p in parks[-1:])
     return (*parks, *(replace(o, after=(*last, *o.after)) if o.robot else o for o in rest))
 
