@@ -44,8 +44,8 @@ if TYPE_CHECKING:
 
 LOST = 6
 """Pictures that are asked of a camera over the bench before none comes; of those that come black TRIES."""
-PATIENCE = 2.0
-"""After how long [s] one that failed is not asked again."""
+PATIENCE = 10.0
+"""After how long [s] one that failed is not asked again: a picture may come late once, where a machine is busy."""
 PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
 T = TypeVar("T")
 
