@@ -73,6 +73,7 @@ SMALLEST = {
     "through": "--seeds 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
+    "wire_faults": "--operations 2",
     "xarm_link": "--seconds 1 --losses 1",
     "xarm_transcript": "",
     "undo": "--cycles 2 --held 1",
