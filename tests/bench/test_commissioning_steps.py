@@ -5,16 +5,18 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 from pico_cli.commands.commission import Person
 from pico_cli.session import Session
 
 from pico.backends.hardware.walking import speed_of
-from pico.bench.commissioning.placing import free_slots, one_of_each
+from pico.bench.commissioning.placing import free_slots, one_of_each, pick_and_place
 from pico.bench.commissioning.reaching import outside
-from pico.bench.commissioning.standing import shortened
-from pico.bench.commissioning.swinging import backwards
+from pico.bench.commissioning.standing import NO_ARM, AtBench, shortened
+from pico.bench.commissioning.swinging import backwards, first_move, stop_distance
 from pico.diagnostics import PicoError
 from pico.manifest.load import load_folder
 from pico.model.observation import Observation, ObservedComponent
@@ -80,3 +82,9 @@ def test_yes_says_of_no_real_bench_that_a_hand_is_on_its_stop() -> None:
     with pytest.raises(PicoError, match="nobody can be asked here"):
         real.confirm("Is a hand on the stop?", by_person=True)
     assert Person(Session(backend="emulated"), auto_approve=True).confirm("Is a hand on the stop?", by_person=True)
+
+
+def test_a_bench_without_arms_has_nothing_to_be_tried_of_them(setup: Setup) -> None:
+    bare = SimpleNamespace(edge=SimpleNamespace(setup=replace(setup, lab=replace(setup.lab, robots={}))))
+    for step in (first_move, stop_distance, pick_and_place):
+        assert step(cast(AtBench, bare)) == NO_ARM

@@ -66,7 +66,8 @@ def test_a_whole_emulated_bench_is_brought_up_and_only_who_means_it_reaches_it(
         assert refused.code == 1 and "served as its emulated bench" in refused.err and "--emulate" in refused.err
         done = pico(*EMULATED, "set", "p1", "angle=7", "-y")
         assert done.code == 0, done.out + done.err
-        assert pico(*EMULATED, "--json", "get", "p1.angle").data["value"] == pytest.approx(7, abs=0.01)
+        read = pico(*EMULATED, "--json", "get", "p1.angle").data["values"]["angle"]
+        assert read["value"] == pytest.approx(7, abs=0.01)
         process.send_signal(signal.SIGTERM)
         assert process.wait(60) == 0
     assert (shel / ".pico" / "emulated" / "world.json").exists()

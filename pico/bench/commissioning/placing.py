@@ -6,7 +6,7 @@ import signal
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from pico.bench.commissioning.standing import REPEATS, AtBench, Found, shortened
+from pico.bench.commissioning.standing import NO_ARM, REPEATS, AtBench, Found, shortened
 from pico.bench.running.attending import attend
 from pico.diagnostics import PicoError, error
 from pico.model.commissioning import CODE
@@ -23,6 +23,8 @@ PLACES = 4
 def pick_and_place(at: AtBench) -> Found:
     """A part of each type that arms move is taken from slot to slot, `repeats` times, and back; each time cameras say
     how far from its goal it stands. Raises PicoError for the first that fails."""
+    if not at.edge.setup.lab.robots:
+        return NO_ARM
     found: dict[str, Any] = dict(at.before.get("types", {}))
     for kind, name in one_of_each(at.edge.setup, at.bench.observe()).items():
         if found.get(kind, {}).get("times", 0) >= at.repeats:

@@ -49,6 +49,9 @@ class Found:
     begun: bool = False
 
 
+NO_ARM = Found(told="this bench has no arm")
+
+
 @dataclass(frozen=True)
 class AtBench:
     """A bench that is walked through. `keep`: keeps what a step has found so far; `before`: what it had found when it

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 from pico.backends import checks, ways
 from pico.backends.attempt import Failed
 from pico.backends.hardware.walking import FIRST_SPEED, speed_of
-from pico.bench.commissioning.standing import AtBench, Found
+from pico.bench.commissioning.standing import NO_ARM, AtBench, Found
 from pico.bench.running.attending import listen
 from pico.diagnostics import PicoError, error
 from pico.model.commissioning import CODE, NEAR
@@ -34,6 +34,8 @@ LOOKS = 0.005
 
 def first_move(at: AtBench) -> Found:
     """Each arm parks, turns about its base and comes back, slowly. Raises PicoError."""
+    if not _arms(at):
+        return NO_ARM
     found = {}
     for robot in _arms(at):
         speed = FIRST_SPEED if robot in at.device.links.untried() else NEAR
@@ -50,6 +52,8 @@ def first_move(at: AtBench) -> Found:
 def stop_distance(at: AtBench) -> Found:
     """Each arm is stopped on its way, as `pico stop --now` does, and how far its tool goes on is measured; a person
     tries the hard-wired stop besides. Raises PicoError."""
+    if not _arms(at):
+        return NO_ARM
     found = {}
     for robot in _arms(at):
         speed = FIRST_SPEED if robot in at.device.links.untried() else NEAR

@@ -139,8 +139,8 @@ class Walk:
         try:
             found = DOING[step](at)
         except PicoError as exc:
-            if isinstance(exc, Declined) or exc.diagnostics[0].code == "usage":
-                write(self.edge.root, report)
+            if isinstance(exc, Declined) or exc.exit_code == ExitCode.LOCKED or exc.diagnostics[0].code == "usage":
+                write(self.edge.root, report)  # it says nothing of the bench
                 raise
             last = kept[0].steps[step].data
             made = keep(Found(told=exc.diagnostics[0].summary, data=last), "failed")
