@@ -6,12 +6,14 @@ import random
 from dataclasses import replace
 from importlib.util import find_spec
 from itertools import permutations
+from typing import Any
 
 import pytest
 from oracles.proven import prove, read_work
 
 from pico.diagnostics import PicoError
 from pico.model.record import as_json
+from pico.planning.ordering import arm_times
 from pico.planning.ordering.arm_times import ArmWork, least, soonest, timed
 
 SEEDS = range(12)
@@ -84,6 +86,22 @@ def test_the_order_found_is_always_the_same_and_keeps_what_comes_before(seed: in
     assert found == soonest(work, range(14))
     assert all(found.index(e) < found.index(j) for j in range(14) for e in work.before[j])
     assert timed(work, found) <= timed(work, range(14))
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_few_moves_each_order_is_timed_once_and_the_search_ends(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    work, asked, looked = some_work(seed, 4), list[tuple[int, ...]](), [0]
+    monkeypatch.setattr(arm_times, "timed", lambda w, order: asked.append(tuple(order)) or timed(w, order))
+    shifts = arm_times._shifts
+
+    def counted(*given: Any) -> Any:
+        looked[0] += 1
+        return shifts(*given)
+
+    monkeypatch.setattr(arm_times, "_shifts", counted)
+    found = soonest(work, next(iter(orders(work))))
+    assert timed(work, found)[0] == min(timed(work, order)[0] for order in orders(work))
+    assert set(asked) == set(orders(work)) and len(asked) < 2 * len(orders(work)) + 40 and looked[0] < 200
 
 
 def test_moves_that_all_wait_for_one_another_in_a_row_keep_their_only_order() -> None:

@@ -9,10 +9,13 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import permutations
 
 TRIED = 3000
 """How many moves the search for an order times in all, for each move; a count of work, so that the answer is always the
 same."""
+FEW = 5
+"""Of up to so many moves all orders are timed."""
 _EQUAL = 1e-6
 _PARKED = -1
 Table = tuple[tuple[float, ...], ...]
@@ -80,11 +83,16 @@ def timed(work: ArmWork, order: Sequence[int]) -> tuple[float, float]:
 
 def soonest(work: ArmWork, order: Sequence[int], tried: int = TRIED, seed: int = 0) -> tuple[int, ...]:
     """Return an order that keeps `before` and ends as soon as one that is found from `order`, which keeps it as well:
-    local search that shifts single moves, from there and again and again from some moves shifted at random."""
+    local search that shifts single moves, from there and again and again from some moves shifted at random. Of few
+    moves all orders are timed first, and the search ends where none is better."""
     rnd, left, known = random.Random(seed), [tried * len(order)], dict[tuple[int, ...], tuple[float, float]]()
     best, cost = _descended(work, tuple(order), left, known)
     movable = left[0] < tried * len(order)  # no shift costs no work: where all moves wait in a row there is none
+    if few := 2 < len(order) <= FEW:
+        known |= {kept: timed(work, kept) for kept in permutations(order) if kept not in known and _keeps(work, kept)}
     while movable and left[0] > 0 and len(order) > 2:
+        if few and not any(_less(value, cost) for value in known.values()):
+            break
         kicked = best
         for _ in range(3):
             shifts = list(_shifts(work, kicked, rnd.randrange(len(kicked))))
@@ -93,6 +101,11 @@ def soonest(work: ArmWork, order: Sequence[int], tried: int = TRIED, seed: int =
         if _less(value, cost):
             best, cost = found, value
     return best
+
+
+def _keeps(work: ArmWork, order: tuple[int, ...]) -> bool:
+    """Whether each move comes after those that it waits for."""
+    return all(work.before[j].isdisjoint(order[n:]) for n, j in enumerate(order))
 
 
 def _descended(
