@@ -77,6 +77,8 @@ def run(
     if resume and (seed is not None or given):
         text = "what was cut short goes on with the world and the parameters that it began with"
         raise PicoError(error("usage", text, hint="`pico run --resume` takes neither --seed nor -p"))
+    if not dry_run and not resume:
+        session.require_answer(auto_approve)
     bench = session.bench(fidelity, writing=not dry_run)
     recipes = Recipes(bench)
     if resume:
@@ -145,7 +147,6 @@ def _attended(session: Session) -> bool:
 
 
 def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool, seed: int | None) -> bool:
-    session.require_answer(auto_approve)
     session.say(view.head(recipe, ahead))
     if seed is not None:
         session.say(f"It begins in a new simulated world of seed {seed}: every part is at home there.")

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import PicoError, error, warning
 
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, group, scope_of
 from ..session import Session
@@ -15,6 +15,7 @@ from ..terminal.waiting import waiting
 from ..views import compared, exported, figured, plotted, published, replayed
 from ..views import recorded as view
 from ..views import runs as table
+from ..views.style import listed
 
 if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic
@@ -112,25 +113,35 @@ def export(
     ] = "all",
     form: Annotated[
         Literal["crate", "csv", "documents"],
-        typer.Option("--as", metavar="crate|csv|documents", help="One run's measurements, or event-model documents."),
+        typer.Option("--as", metavar="crate|csv|documents", help="Measurements of runs, or event-model documents."),
     ] = "crate",
+    recipe: Annotated[
+        str | None,
+        typer.Option(
+            "--recipe", metavar="NAME|ID", help="All runs of the last run of this recipe, for csv or documents."
+        ),
+    ] = None,
 ) -> None:
     """Write a revision with its runs and pictures as an RO-Crate.
 
     Runs, measurements, plan and pictures of the table, to publish. The same commit gives the same bytes. Refused where
-    an artifact of a run is not here. `--as csv` writes what one run measured (`--run`, or the last), a row each;
-    `--as documents` the run in the documents of bluesky's event model, a line each; without `--out`, or with
-    `--out -`, to the terminal.
+    an artifact of a run is not here. `--as csv` writes what runs measured (`--run`, or all of `--recipe`, or the last),
+    a row each; `--as documents` the runs in the documents of bluesky's event model, a line each; without `--out`, or
+    with `--out -`, to the terminal.
 
     Examples:
       pico runs export e1 --out e1.zip
       pico runs export --as csv --run 20260101 --out scan.csv
+      pico runs export --as csv --recipe tilt_scan --out scan.csv
     """
     if form != "crate":
-        if revision != "HEAD" or len(run or ()) > 1:
-            raise PicoError(error("usage", f"--as {form} writes one run", hint=f"`--as {form} --run RUN`, or the last"))
-        _export_run(Session.of(context), form, run[0] if run else None, out)
+        if revision != "HEAD" or (run and recipe):
+            hint = f"`--as {form} --run RUN`, `--as {form} --recipe NAME`, or of the last run"
+            raise PicoError(error("usage", f"--as {form} writes runs, or those of a recipe", hint=hint))
+        _export_runs(Session.of(context), form, run or [], recipe, out)
         return
+    if recipe is not None:
+        raise PicoError(error("usage", "a crate has a revision's runs", hint="`--as csv --recipe NAME`"))
     if str(out) == "-":
         raise PicoError(error("usage", "a crate is not written to the terminal", hint="name a folder or a file.zip"))
     from pico.bench.publishing import publish
@@ -145,31 +156,42 @@ def export(
     session.tell(made.diagnostics)
 
 
-def _export_run(session: Session, form: Literal["csv", "documents"], run: str | None, out: Path | None) -> None:
-    """Write one run, or print it."""
+def _export_runs(
+    session: Session, form: Literal["csv", "documents"], names: list[str], recipe: str | None, out: Path | None
+) -> None:
+    """Write runs, or print them; those of a run of a recipe in the order in which it began them."""
     import json
 
     from pico.disk import write_whole
+    from pico.recipes.recipes import Recipes
     from pico.runs.event_model import documents, units_of
-    from pico.runs.table import as_csv, rows
+    from pico.runs.table import as_csv, rows_of
 
     bench = session.bench()
-    found, _ = bench.history.recorded_run(run)
+    if recipe is not None:
+        names = Recipes(bench).ran(recipe)[1].runs
+    wanted: list[str | None] = [*names] or [None]
+    found = [bench.history.recorded_run(name)[0] for name in wanted]
+    table = rows_of([(run.document.id, run.trace) for run in found])
     if form == "csv":
-        text = as_csv(rows(found.trace))
+        text = as_csv(table)
     else:
-        text = "".join(f"{json.dumps(pair)}\n" for pair in documents(found, units_of(bench.setup)))
+        units = units_of(bench.setup)
+        text = "".join(f"{json.dumps(pair)}\n" for run in found for pair in documents(run, units))
+    ids = [run.document.id for run in found]
     if out is None or str(out) == "-":
         if not session.json:
             session.say(text.removesuffix("\n"))
         for line in text.splitlines() if session.json and form == "documents" else ():
             session.document(json.loads(line))
         if session.json and form == "csv":
-            table = [row.flat for row in rows(found.trace)]
-            session.document({"schema": "pico.exported/v1", "run": found.document.id, "as": form, "rows": table})
-        return
-    write_whole(session.folder / out, text.encode())
-    session.show(exported, found.document.id, form, out)
+            session.document(exported.rows(ids, [row.flat for row in table]))
+    else:
+        write_whole(session.folder / out, text.encode())
+        session.show(exported, ids, form, out)
+    if form == "csv" and not table:
+        hint = "`pico runs list` shows them; `--recipe NAME` takes all runs of a recipe"
+        session.tell([warning("nothing-measured", f"nothing was measured in {listed(ids)}", hint=hint)])
 
 
 @app.command()

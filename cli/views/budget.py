@@ -80,7 +80,9 @@ def _row(row: Contribution, size: float, total: float, unit: str, repeats: bool)
 
 
 def _wanted(one: Budgeted, budget: ErrorBudget) -> list[str]:
-    said = f"{one.claim or 'It'} to {one.to}" + (f" ({_sized(one.wanted or 0.0, budget.unit)})" if budget.unit else "")
+    said = f"{one.claim or 'The result'} to {one.to}" + (
+        f" ({_sized(one.wanted or 0.0, budget.unit)})" if budget.unit else ""
+    )
     if one.carried:
         return ["", paint("green", f"{said}: the tolerances carry that.")]
     if not one.tighter:
@@ -99,17 +101,8 @@ def _wanted(one: Budgeted, budget: ErrorBudget) -> list[str]:
 
 
 def _tighter(held: Tighter) -> list[str]:
-    sign, note = ("± ", "") if held.limit else ("", " (1 sigma)")
     fine = "" if held.reached else paint("yellow", "finer than it repeats")
-    return [
-        f"{held.address} to {sign}{_down(held.to)} {held.unit}{note}", paint("dim", f"from {sign}{held.was:.2g}"), fine
-    ]  # fmt: skip
-
-
-def _down(value: float) -> str:
-    """Return a limit with two digits, rounded down: one that is rounded up is none."""
-    step = 10.0 ** (math.floor(math.log10(value)) - 1) if value > 0 else 1.0
-    return f"{math.floor(value / step + 1e-9) * step:.2g}"
+    return [held.said, paint("dim", f"from {'± ' if held.limit else ''}{held.was:.2g}"), fine]
 
 
 def _of(size: float, budget: ErrorBudget) -> str:

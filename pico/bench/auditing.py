@@ -74,12 +74,16 @@ def with_claims(opened: Opened, plan: Plan) -> Plan:
     def find() -> tuple[Diagnostic, ...]:
         from pico.diagnosis.claims import uncarried
 
-        return tuple(one for _, one in uncarried(setup, state_from_json(plan.lab.name, plan.target.state)))
+        state = state_from_json(plan.lab.name, plan.target.state)
+        return tuple(one for _, one in uncarried(setup, state, plan.target.revision))
 
     def read(kept: Any) -> tuple[Diagnostic, ...]:
         return tuple(warning("claim", one["summary"], detail=one["detail"], hint=one["hint"]) for one in kept)
 
-    path, key = opened.root / ".pico" / "claims.json", digest([VERSION, setup.digest(), plan.target.state])
+    path, key = (
+        opened.root / ".pico" / "claims.json",
+        digest([VERSION, setup.digest(), plan.target.state, plan.target.revision]),
+    )
     found = _kept(path, key, read, find if plan.operations else None)
     return replace(plan, diagnostics=(*plan.diagnostics, *found)).sealed() if found else plan
 

@@ -87,6 +87,12 @@ class Tighter:
     to: float
     reached: bool
 
+    @property
+    def said(self) -> str:
+        """`p1.angle to ± 0.022 deg`."""
+        sign, note = ("± ", "") if self.limit else ("", " (1 sigma)")
+        return f"{self.address} to {sign}{_down(self.to)} {self.unit}{note}"
+
 
 def error_budget(nominal: Nominal, of: str, looks: Looks | None = None) -> ErrorBudget:
     """Return the error budget of an expression over measured numbers; raises PicoError for what is none, and for what
@@ -134,6 +140,12 @@ def _effect(result: Result, value: float, one: Error, size: float) -> float | No
     """Return the root mean square of what an error so large does, either way; None where the light is lost."""
     up, down = result.erring(one, size), result.erring(one, -size)
     return None if up is None or down is None else math.hypot(up - value, down - value) / math.sqrt(2.0)
+
+
+def _down(value: float) -> str:
+    """Return a limit with two digits, rounded down: one that is rounded up is none."""
+    step = 10.0 ** (math.floor(math.log10(value)) - 1) if value > 0 else 1.0
+    return f"{math.floor(value / step + 1e-9) * step:.2g}"
 
 
 def _held(row: Contribution, share: float) -> Tighter:

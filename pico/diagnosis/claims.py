@@ -104,8 +104,10 @@ def judged(budget: ErrorBudget, to: Value | None, name: str = "") -> Budgeted:
     try:
         share = share_of(to)
         if share is not None and budget.nothing:
-            text = f"the result is 0 here, of which there is no {to}"
-            raise PicoError(error("value", text, hint=f"a size: `1 {budget.unit}`".rstrip()))
+            text = f"the result is 0 in this state, of which there is no {to}"
+            size = f"1 {budget.unit}".rstrip()
+            hint = f"ask of a state that has some, `pico budget {name or 'EXPRESSION'} REV`; or of a size, `{size}`"
+            raise PicoError(error("value", text, hint=hint))
         most = size_of(to, budget.unit) if share is None else share * abs(budget.value)
     except QuantityError as exc:
         hint = f"a share of the result, `2 %`, or a size of it, `1 {budget.unit}`".rstrip()
@@ -127,12 +129,13 @@ def claims_in(setup: Setup, state: LabState) -> Iterator[Budgeted]:
             yield Budgeted(name, why=exc.diagnostics[0].summary, to=claim.to)
 
 
-def uncarried(setup: Setup, state: LabState) -> Iterator[tuple[str, Diagnostic]]:
+def uncarried(setup: Setup, state: LabState, revision: str | None = None) -> Iterator[tuple[str, Diagnostic]]:
     """Yield the claims of a lab, by name, that the tolerances of a state do not carry, as warnings; of those that
-    cannot be told there, for no light comes to where they are measured, nothing is said."""
+    cannot be told there, for no light comes to where they are measured, nothing is said. `revision`: where the state is
+    from, if not from the manifest."""
     for one in claims_in(setup, state):
         if not one.carried:
-            yield one.claim, _warning(one)
+            yield one.claim, _warning(one, f"pico budget {one.claim} {revision or ''}".rstrip())
 
 
 def check_carried(read: Manifests) -> tuple[Diagnostic, ...]:
@@ -143,7 +146,7 @@ def check_carried(read: Manifests) -> tuple[Diagnostic, ...]:
     return tuple(replace(one, source=at(name)) for name, one in uncarried(setup, state))
 
 
-def _warning(one: Budgeted) -> Diagnostic:
+def _warning(one: Budgeted, command: str) -> Diagnostic:
     budget = one.budget
     assert budget is not None  # else nobody knows
     text = f"the tolerances do not carry {one.claim}: it is claimed to {one.to}"
@@ -151,6 +154,7 @@ def _warning(one: Budgeted) -> Diagnostic:
         return warning("claim", text, detail=f"no light may be left within the tolerance of {budget.lost[0]}")
     has = f"{budget.tolerated:.2g} {budget.unit}".rstrip()
     share = f", {100 * budget.tolerated / abs(budget.value):.2g} %" if budget.value else ""
-    first = "".join(f"{held.address} to {held.to:.2g} {held.unit}; " for held in one.tighter[:1])
-    hint = f"{first}`pico budget {one.claim}` says what would"
+    first, more = "".join(held.said for held in one.tighter[:1]), len(one.tighter) - 1
+    others = f" and {more} other{'s' if more > 1 else ''} tighter" if more > 0 else ""
+    hint = f"{first}{others}; `{command}` says what would" if first else f"`{command}` says what would"
     return warning("claim", text, detail=f"they leave {has}{share}, one standard deviation", hint=hint)

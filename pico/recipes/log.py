@@ -64,6 +64,11 @@ class Log:
     def __init__(self, path: Path, about: About, steps: dict[str, Logged], times: int = 0) -> None:
         self.path, self.about, self.steps, self.times = path, about, steps, times
 
+    @property
+    def runs(self) -> list[str]:
+        """The runs that its steps began, in their order."""
+        return list(dict.fromkeys(run for step in self.steps.values() for run in step.runs))
+
     @classmethod
     def begin(cls, root: Path, about: About) -> Log:
         """Begin the log of a new run on the bench of the lab in `root`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pico.model.measurement import Measurement, measurement_from_json
@@ -27,6 +28,8 @@ class Row:
     at: str
     measurement: Measurement
     tunables: Mapping[str, Any]
+    run: str = ""
+    """Its run, where there are several in a table."""
 
     @property
     def numbers(self) -> dict[str, float | None]:
@@ -42,7 +45,8 @@ class Row:
         """All of it in columns, those of `FIRST` before the others."""
         first = (self.seq, self.t, self.at, self.measurement.address)
         array = {f"{self.measurement.address}.sha256": a.sha256} if (a := self.measurement.array) else {}
-        return dict(zip(FIRST, first, strict=True)) | dict(self.tunables) | self.numbers | array
+        of = {"run": self.run} if self.run else {}
+        return of | dict(zip(FIRST, first, strict=True)) | dict(self.tunables) | self.numbers | array
 
 
 def rows(trace: Sequence[TraceEvent]) -> tuple[Row, ...]:
@@ -62,6 +66,13 @@ def rows(trace: Sequence[TraceEvent]) -> tuple[Row, ...]:
                 tunables=dict(sorted(known.items())),
             ))  # fmt: skip
     return tuple(found)
+
+
+def rows_of(runs: Sequence[tuple[str, Sequence[TraceEvent]]]) -> tuple[Row, ...]:
+    """Return the measurements of runs, by name and trace, one after another; of several each row has its run."""
+    if len(runs) == 1:
+        return rows(runs[0][1])
+    return tuple(replace(row, run=name) for name, trace in runs for row in rows(trace))
 
 
 def _at_first(trace: Sequence[TraceEvent], changed: set[tuple[str, str]]) -> dict[str, Any]:
@@ -131,7 +142,8 @@ def columns(found: Sequence[Row]) -> list[str]:
     """Return the columns of some rows: those of all, then tunables, then what was measured."""
     tunables = sorted({name for row in found for name in row.tunables})
     rest = dict.fromkeys(name for row in found for name in row.flat if name not in tunables and name not in FIRST)
-    return [*FIRST, *tunables, *rest]
+    first = (*(("run",) if "run" in rest else ()), *FIRST)
+    return [*first, *tunables, *(name for name in rest if name != "run")]
 
 
 def as_csv(found: Sequence[Row]) -> str:

@@ -40,7 +40,7 @@ def test_a_claim_is_listed_beside_a_diff_and_warned_of(shel: Path, pico: Pico) -
     assert "shift: -67.9 um ± 3.34 um" in beside
     assert "by p1.angle (minus) 2.5 um →" in beside
     assert pico("validate").err == ""  # nothing of it can be told here: the result is 0
-    assert "can't be told: the result is 0 here" in words(pico("budget").out)
+    assert "can't be told: the result is 0 in this state" in words(pico("budget").out)
     committed = pico("commit", "--planned", "-m", "a claim")
     assert committed.code == 0 and "claim" not in committed.err
     told = pico("budget", "shift", "e1")
@@ -61,7 +61,7 @@ def test_a_plan_warns_of_a_claim_that_its_goal_does_not_carry(
     edit(shel / "lab.yaml", "sim:\n", CLAIM)
     first = pico("plan", "e1")
     assert first.code == 0 and "the tolerances do not carry shift" in words(first.out + first.err)
-    assert "p1.angle to 0.02" in words(first.out + first.err)
+    assert "p1.angle to ± 0.022 deg and 2 others tighter; `pico budget shift e1` says" in words(first.out + first.err)
 
     def again(*_: object) -> None:
         raise AssertionError("what is known is reckoned again")

@@ -176,7 +176,7 @@ def test_what_is_held_as_it_says_leaves_what_is_wanted(effects: list[float], sha
 
 def test_of_a_result_that_is_zero_there_is_no_share_and_light_that_may_be_lost_carries_nothing() -> None:
     nothing = ErrorBudget("x", {}, 0.0, "um", rows(1.0))
-    with pytest.raises(PicoError, match="is 0 here"):
+    with pytest.raises(PicoError, match="is 0 in this state"):
         judged(nothing, "2 %")
     assert judged(nothing, "2 um").carried and not judged(nothing, 0.5).carried
     lost = ErrorBudget("x", {}, 1.0, "um", (replace(rows(1.0)[0], tolerated=None),))
@@ -199,7 +199,7 @@ def test_a_claim_is_warned_about_where_the_tolerances_do_not_carry_it(nominal: N
         for name, pose in nominal.poses.items()
     }
     ((name, said),) = uncarried(setup, LabState(lab="shel", components=parts))
-    assert name == "shift" and "p1.angle to 0.02" in said.hint and "4.9 %" in said.detail
+    assert name == "shift" and "p1.angle to ± 0.02" in said.hint and "4.9 %" in said.detail
     without = {name: part for name, part in parts.items() if name != "laser"}
     moved = {**without, "laser": replace(parts["laser"], pose=replace(nominal.poses["laser"], yaw=90))}
     assert not [*uncarried(setup, LabState(lab="shel", components=moved))]  # in the dark nothing is told

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import subprocess
 from pathlib import Path
 
 import pytest
 from asking import read
+from commanding import Pico
 
 from pico.bench.bench import Bench, new_lab
 from pico.diagnostics import PicoError
@@ -91,6 +94,24 @@ def test_a_run_is_drawn_as_it_was(shel: Path) -> None:
     with Bench.open(shel.parent / "clone") as elsewhere, pytest.raises(PicoError, match="log there") as caught:
         Recipes(elsewhere).ran("turned")
     assert f"`pico runs show {outcome.runs[0]}`" in str(caught.value)
+
+
+def test_all_that_a_recipe_measured_is_one_table_whatever_runs_it_took(shel: Path, pico: Pico) -> None:
+    shutting = TEXT.replace(
+        "  - tag: here\n", "  - tag: here\n  - set: {p2.angle: 5}\n"
+    )  # a run in which nothing is measured
+    (shel.parent / "turned.yaml").write_text(shutting)
+    assert pico("-C", str(shel), "run", str(shel.parent / "turned.yaml"), "-y").code == 0
+    answer = pico("-C", str(shel), "runs", "export", "--as", "csv", "--recipe", "turned")
+    rows = list(csv.DictReader(io.StringIO(answer.out)))
+    assert [float(row["p1.angle"]) for row in rows] == [10.0, 20.0] and len({row["run"] for row in rows}) == 1
+    last = pico("-C", str(shel), "runs", "export", "--as", "csv")
+    assert last.code == 0 and "nothing was measured in" in last.err and "--recipe NAME" in last.err
+    runs = [row["run"] for row in rows[:1]]
+    alone = pico("-C", str(shel), "runs", "export", "--as", "csv", "--run", runs[0])
+    assert alone.out.splitlines()[0].startswith("seq,t,at,measured") and len(alone.out.splitlines()) == 3
+    wrong = pico("-C", str(shel), "runs", "export", "--recipe", "turned")
+    assert wrong.code == 1 and "--as csv --recipe NAME" in wrong.err
 
 
 def test_what_was_cut_short_returned_nothing(shel: Path) -> None:

@@ -44,5 +44,6 @@ def require_returned(found: Retold, name: str, run: str) -> Mapping[str, Any]:
     """Return what a run returned; raises PicoError where it came to no end."""
     if found.returns is None:
         text = f"run {run} of {name} returned nothing: {found.failed}"
-        raise PicoError(error("recipe-unended", text, hint="`pico run --resume` goes on with what was cut short"))
+        hint = "wait where it is under way; `pico run --resume` goes on with what was cut short"
+        raise PicoError(error("recipe-unended", text, hint=hint))
     return found.returns
