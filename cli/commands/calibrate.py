@@ -11,12 +11,14 @@ from pico.disk import write_whole
 
 from ..arguments import group
 from ..session import Session
+from ..terminal.waiting import waiting
 from ..views import calibration as view
+from ..views import lesson
 from ..views import markers as sheets
 
 app = group(
     help="Find out where cameras and arms are; print the markers.",
-    examples=("pico calibrate", "pico calibrate markers --paper letter"),
+    examples=("pico calibrate", "pico calibrate twin --dry-run", "pico calibrate markers --paper letter"),
     alone=True,
 )
 
@@ -41,6 +43,39 @@ def cameras(context: typer.Context) -> None:
     bench = session.bench(writing=True)
     session.say("Taking pictures of the calibration board (about half a minute) ...")
     session.show(view, bench.cameras.calibrate(), shown=FILE)
+
+
+@app.command()
+def twin(
+    context: typer.Context,
+    runs: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="RUN|A..B...", help="Ids of runs, or those of a range; without any the bench's own."),
+    ] = None,
+    since: Annotated[
+        str | None, typer.Option("--since", metavar="DAY", help="Only from runs begun then or later (UTC).")
+    ] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Show it, and write nothing.")] = False,
+) -> None:
+    """Let the twin learn from recorded runs how the bench errs.
+
+    How parts come to stand that are put down, by type; how long operations take; how what cameras see scatters. Told
+    beside each other: what the twin said before, what was measured, what it says now. Writes twin.json into the lab's
+    folder: the simulator reads it, plans do not. Without RUN all runs on hardware, or, where there are none, with
+    emulated devices.
+
+    Examples:
+      pico calibrate twin --since 2026-11-01
+      pico calibrate twin e1..e2 --dry-run
+    """
+    from pico.twin.learned import FILE
+
+    session = Session.of(context)
+    bench = session.bench(writing=not dry_run)
+    with waiting("Learning"):
+        found = bench.twin.learn(*(runs or ()), since=since, write=not dry_run)
+    session.show(lesson, found, shown=FILE)
+    session.tell(found.diagnostics)
 
 
 @app.command()

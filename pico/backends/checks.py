@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any, cast
 
@@ -14,6 +14,7 @@ from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
+from pico.model.record import as_json
 from pico.model.setpoint import refusal
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, StandingObject
@@ -120,6 +121,13 @@ def misplaced(setup: Setup, name: str, pose: Pose, goal: Pose, slot: str | None)
     away, turned = pose.distance(goal), abs(angle_between(goal.yaw, pose.yaw))
     text = f"{name} stands {away:.3g} mm and {turned:.3g}° from its goal {slot or goal}"
     return error("misplaced", text, hint=_AGAIN, address=name)
+
+
+def off(pose: Pose, goal: Pose, before: Sequence[Pose] = ()) -> dict[str, Any]:
+    """Return what a placement measured of itself: how far off its goal a part stands [mm, deg], and where it `stood` at
+    first, each time before it was set right."""
+    found = {"error_mm": pose.distance(goal), "error_deg": abs(angle_between(goal.yaw, pose.yaw))}
+    return {**found, "stood": [as_json(one) for one in before]} if before else found
 
 
 def setpoint(setup: Setup, operation: Operation) -> tuple[str, Tunable]:

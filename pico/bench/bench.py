@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from pico.bench.commits import CommitMode, Commits
     from pico.bench.goals import Goals, Optimized
     from pico.bench.lasers import Lasers
+    from pico.bench.learning.learn import Twins
     from pico.bench.light import Lights
     from pico.bench.measurements import Measurements
     from pico.bench.mornings import Morning, Mornings
@@ -118,6 +119,13 @@ class Bench(Opened):
         from pico.bench.cameras import Cameras
 
         return Cameras(self)
+
+    @cached_property
+    def twin(self) -> Twins:
+        """The simulated bench, and what it learns from runs of the real one."""
+        from pico.bench.learning.learn import Twins
+
+        return Twins(self)
 
     @cached_property
     def drift(self) -> Watch:

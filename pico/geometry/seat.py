@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import math
 import random
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass, replace
 
 from pico.model.catalog import SEATINGS, ComponentType, Repeatability, SeatingKind
+from pico.model.learned import Learned
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import QuantityError, convert
 from pico.model.record import record
@@ -47,6 +48,10 @@ class PlacementError:
     def of(self, goal: Pose) -> Pose:
         """Return where a component comes to stand that is put down at a goal."""
         return Pose(goal.x + self.x, goal.y + self.y, wrap(goal.yaw + self.yaw))
+
+    def times(self, factor: float) -> PlacementError:
+        """Return what is so many times as large."""
+        return PlacementError(*(factor * one for one in astuple(self)))
 
     def seat(self, count: int) -> Seat:
         """Return how it then sits."""
@@ -88,9 +93,34 @@ def placed_on(kind: ComponentType, tunable: str, one: PlacementError) -> float |
         return None
 
 
-def drawn(setup: Setup, component: str, seed: int, count: int, times: float = 1.0) -> PlacementError:
-    """Return the error of the `count`-th placement of a component, `times` as large as it scatters: Gaussian, the same
-    for the same seed, component and count."""
-    draw, one = random.Random(f"{seed}/{component}/placed/{count}"), scatter_of(setup, component)
-    sigmas = (one.x, one.y, one.yaw, one.pitch, one.roll, one.height)
-    return PlacementError(*(times * draw.gauss(0.0, sigma) for sigma in sigmas))
+def injected(setup: Setup, component: str, learned: Learned | None, usual: float) -> PlacementError:
+    """Return one standard deviation by which a simulated placement of a component errs each way.
+
+    What the twin learned of its type, or of parts that are seated so, is position and yaw; all else is what the type
+    declares, times the lab's `seat`, and `usual` where it says none. A lab with `seat: 0` places exactly.
+    """
+    asked = setup.lab.sim.errors.seat
+    one = scatter_of(setup, component)
+    errs = one.times(usual if asked is None else asked)
+    if learned is None or asked == 0:
+        return errs
+    own = learned.types.get(setup.lab.inventory[component].type)
+    alike = learned.seatings.get(setup.seating_of(component))
+    position, yaw = errs.x, errs.yaw
+    if alike is not None:
+        position = one.x * alike.position.value if alike.position else position
+        yaw = one.yaw * alike.yaw.value if alike.yaw else yaw
+    if own is not None:
+        position = own.position.value if own.position else position
+        yaw = own.yaw.value if own.yaw else yaw
+    return replace(errs, x=position, y=position, yaw=yaw)
+
+
+def drawn(
+    setup: Setup, component: str, seed: int, count: int, times: float = 1.0, one: PlacementError | None = None
+) -> PlacementError:
+    """Return the error of the `count`-th placement of a component, `times` as large as it scatters (`one` standard
+    deviation, as `scatter_of` has it where None): Gaussian, the same for the same seed, component and count."""
+    draw, sigma = random.Random(f"{seed}/{component}/placed/{count}"), one or scatter_of(setup, component)
+    sigmas = (sigma.x, sigma.y, sigma.yaw, sigma.pitch, sigma.roll, sigma.height)
+    return PlacementError(*(times * draw.gauss(0.0, each) for each in sigmas))

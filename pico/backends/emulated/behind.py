@@ -167,10 +167,13 @@ class SharedEyes:
 
     def _scene(self) -> Posed:
         from pico.backends.sim.sight import Posed
+        from pico.twin.learned import read_learned, with_noise
         from pico.vision.calibration import known_arms
 
         if self._posed is None:
-            self._posed = Posed(self._world.setup, self._world.world(), known_arms(self._world.root), lit=False)
+            setup, root = self._world.setup, self._world.root
+            noisy = with_noise(setup, read_learned(root))
+            self._posed = Posed(noisy, self._world.world(), known_arms(root), lit=False)
         return self._posed
 
 

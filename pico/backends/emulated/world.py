@@ -14,6 +14,7 @@ from pico.backends.hardware.settings import Settings
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, put_down
 from pico.diagnostics import PicoError
+from pico.geometry.seat import PlacementError, injected
 from pico.model.observation import ObservedValue
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -22,6 +23,7 @@ from pico.motion.kinematics import tool_pose
 from pico.motion.reach import grasp_height
 from pico.motion.types import Joints
 from pico.twin.arms import arms_of
+from pico.twin.learned import read_learned
 from pico.vision.calibration import known_arms
 
 FOLDER = "emulated"
@@ -47,7 +49,7 @@ class EmulatedWorld:
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
         self._devices = Settings(root, FOLDER, "devices.json")
         self._pulled: set[str] = set()
-        self._arms = arms_of(setup, self._world.seed, known_arms(root))
+        self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(root)), read_learned(root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
 
@@ -202,11 +204,11 @@ class EmulatedWorld:
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(name).geometry
         pose = self._tool(robot, joints).compose(self._held.pop(robot))
         high = tool_pose(arm, joints)[2] - grasp_height(arm, geometry) > DROP
-        times = self.setup.lab.sim.errors.seat or 0.0
-        at, seat = put_down(self.setup, self._world, name, pose, times)
+        errs = injected(self.setup, name, self._learned, 0.0)
+        at, seat = put_down(self.setup, self._world, name, pose, errs)
         self._world = self._world.with_body(
             name, presence="toppled" if high else "seen", pose=at, free=None,
-            seat=seat if times or self._world.components[name].seat else None,
+            seat=seat if errs != PlacementError() or self._world.components[name].seat else None,
         )  # fmt: skip
         now = replace(self._world.robots[robot], holding=None)
         self._world = replace(self._world, robots={**self._world.robots, robot: now})

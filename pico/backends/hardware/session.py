@@ -22,7 +22,7 @@ from pico.backends.measured import Reading
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
-from pico.model.pose import Pose, angle_between
+from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
@@ -202,6 +202,7 @@ class HardwareSession:
         """Pick and place on the table as it is now, and again where the part then does not stand as it should."""
         name = operation.component
         planned, goal, slot = checks.places(operation)
+        stood: list[Pose] = []
         for left in reversed(range(1 + self._known.corrections)):
             await self._carried(operation, key, planned)
             part = await self._asked(self._known.confirm, name, goal)
@@ -212,9 +213,10 @@ class HardwareSession:
                 break
             wrong = checks.misplaced(self._setup, name, part.pose, goal, slot)
             if wrong is None:
-                return {"error_mm": part.pose.distance(goal), "error_deg": abs(angle_between(goal.yaw, part.pose.yaw))}
+                return checks.off(part.pose, goal, stood)
             if not left:
                 raise Failed(wrong)
+            stood.append(part.pose)
             planned = part.pose
             operation = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(planned)}})
         raise checks.not_standing(name, part.presence)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from pico.backends.attempt import Failed
 from pico.backends.sim.mover import InProgress
 from pico.backends.sim.world import World, put_down
-from pico.geometry.seat import Seat
+from pico.geometry.seat import PlacementError, Seat, injected
+from pico.model.learned import Learned
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
@@ -40,12 +41,14 @@ class KinematicWorld:
     """Moves robots and components of `world` without dynamics: what a perfect arm carries ends exactly at its goal,
     what another one does where that takes it, and where the lab asks for it, what the seat makes of that.
 
-    `step`: seconds of a path that are walked in one go. `known`: how arms are off, as calibration found it.
+    `step`: seconds of a path that are walked in one go. `known`: how arms are off, as calibration found it;
+    `learned`: how parts come to stand, as runs of the bench showed.
     """
 
-    def __init__(self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None) -> None:
-        self._setup, self._known, self._start = setup, known, world
-        self._times = setup.lab.sim.errors.seat or 0.0
+    def __init__(
+        self, setup: Setup, world: World, known: Mapping[str, ArmOffsets] | None = None, learned: Learned | None = None
+    ) -> None:
+        self._setup, self._known, self._start, self._learned = setup, known, world, learned
         self.step = STEP
         self._arms = {n: arm for n, arm in arms_of(setup, world.seed, known).items() if not arm.perfect}
         self._slack: dict[str, Array] = {}  # by how much motors are ahead of joints, of arms that are not perfect
@@ -81,8 +84,9 @@ class KinematicWorld:
     def _put_down(self, name: str, goal: Pose) -> None:
         body = self._start.components[name]
         now = self._start.with_body(name, seat=self._seats.get(name, body.seat))
-        self._placed[name], seat = put_down(self._setup, now, name, goal, self._times)
-        if self._times or body.seat:
+        errs = injected(self._setup, name, self._learned, 0.0)
+        self._placed[name], seat = put_down(self._setup, now, name, goal, errs)
+        if errs != PlacementError() or body.seat:
             self._seats[name] = seat
 
     def park(self, path: MovePath) -> InProgress:

@@ -13,8 +13,9 @@ from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.mover import InProgress
 from pico.backends.sim.world import FreePose, World, WorldBody, put_down
 from pico.diagnostics import error
-from pico.geometry.seat import Seat
+from pico.geometry.seat import Seat, injected
 from pico.model.catalog import Geometry
+from pico.model.learned import Learned
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
@@ -50,7 +51,8 @@ class PhysicsWorld:
     """Moves robots and components of `world` in the twin; implements `Mover`.
 
     `friction`: sliding friction coefficient of the finger pads; the lab's where None. `sight` makes what sees a part
-    in the hand of the twin; None places blindly. `known`: how arms are off, as calibration found it.
+    in the hand of the twin; None places blindly. `known`: how arms are off, as calibration found it; `learned`: how
+    parts come to rest in their seats, as runs of the bench showed.
     """
 
     def __init__(
@@ -61,8 +63,9 @@ class PhysicsWorld:
         friction: float | None = None,
         sight: Callable[[Twin], HandSight] | None = Exact,
         known: Mapping[str, ArmOffsets] | None = None,
+        learned: Learned | None = None,
     ) -> None:
-        self._setup = setup
+        self._setup, self._learned = setup, learned
         self._start, self._seats = world, dict[str, Seat]()
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
         things = {n: SceneBody(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
@@ -151,9 +154,9 @@ class PhysicsWorld:
     def _seat(self, component: str) -> None:
         """A seat takes hold of a part that was let go: it comes to rest within the repeatability of its type. A free
         part stays where it stands, but leans as it may."""
-        here, asked = Pose(0.0, 0.0), self._setup.lab.sim.errors.seat
+        here, errs = Pose(0.0, 0.0), injected(self._setup, component, self._learned, 1.0)
         now = self._start.with_body(component, seat=self._seats.get(component, self._start.components[component].seat))
-        off, seat = put_down(self._setup, now, component, here, 1.0 if asked is None else asked)
+        off, seat = put_down(self._setup, now, component, here, errs)
         self._seats[component] = seat
         if self._setup.seating_of(component) in ("magnet", "kinematic"):
             self.twin.pull(component, off.x, off.y, off.yaw)

@@ -31,12 +31,14 @@ from pico.backends.sim.senses import sensed
 from pico.backends.sim.steering.axis import driven
 from pico.backends.sim.steering.pace import STEP, Pace
 from pico.backends.sim.store import save_world
+from pico.backends.sim.stretching import stretched
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.model.learned import Learned, work
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, doubtful, slot_at
 from pico.model.operation import Operation, OperationResult
-from pico.model.pose import Pose, angle_between
+from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
@@ -44,6 +46,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
 from pico.teleop.frames import STEPS
+from pico.twin.learned import read_learned, with_noise
 from pico.twin.snapshot import Snapshot
 from pico.vision.calibration import known_arms
 
@@ -88,6 +91,7 @@ class WorldSession:
         self._pace = pace or Pace()
         self._motion, self._tell_all, self._clock = motion, tell, clock
         self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
+        self._learned = read_learned(root) or Learned()
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._told, self._halting, self._kept = 0, False, 0.0
         self._known: Known = self._by_sight(look) if look else Exactly(self.world)
@@ -189,7 +193,11 @@ class WorldSession:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
                "measure": self._measure, "auto_range": self._auto_range,
                "take": self._take, "jog": self._jog, "let_go": self._let_go}  # fmt: skip
-        return (yield from own.get(operation.primitive, self._plugged_in)(operation, key))
+        doing = own.get(operation.primitive, self._plugged_in)(operation, key)
+        if operation.primitive in STEPS:
+            return (yield from doing)
+        kind = work(self._setup, operation.primitive, operation.component, operation.robot, operation.arguments)
+        return (yield from stretched(doing, self._learned.time(kind)))
 
     def _measure(self, operation: Operation, key: str) -> InProgress:
         """Wait until the table has settled, and measure it as it then is."""
@@ -243,6 +251,7 @@ class WorldSession:
         """Pick and place on the table as it is now, and again where the part then does not stand as it should."""
         name, fault = operation.component, self._mishaps.of(operation, key)
         planned, goal, slot = checks.places(operation)
+        stood: list[Pose] = []
         for left in reversed(range(1 + self._known.corrections)):
             data = yield from self._carried(operation, key, planned, fault)
             self._mishaps.slipped(name, fault)
@@ -255,10 +264,10 @@ class WorldSession:
             there = yield from self._mishaps.looked_at(name, part.pose, fault)
             wrong = checks.misplaced(self._setup, name, there, goal, slot)
             if wrong is None:
-                off = {"error_mm": there.distance(goal), "error_deg": abs(angle_between(goal.yaw, there.yaw))}
-                return {**off, **data}
+                return {**checks.off(there, goal, stood), **data}
             if not left:
                 raise Failed(wrong)
+            stood.append(there)
             planned, fault = there, None
             operation = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(there)}})
         raise checks.not_standing(name, part.presence)
@@ -498,9 +507,10 @@ class WorldSession:
 
 def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> WorldMover:
     """Return what moves the bodies of `world` of the lab in `root` at a fidelity: `kinematic` or `physics`."""
-    known = known_arms(root)
+    known, learned = known_arms(root), read_learned(root)
+    setup = with_noise(setup, learned)
     if fidelity == "kinematic":
-        return KinematicWorld(setup, world, known)
+        return KinematicWorld(setup, world, known, learned)
     from pico.backends.sim.physics import PhysicsWorld, seeing
 
-    return PhysicsWorld(setup, world, sight=seeing(setup, world, root), known=known)
+    return PhysicsWorld(setup, world, sight=seeing(setup, world, root), known=known, learned=learned)

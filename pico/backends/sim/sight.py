@@ -16,6 +16,7 @@ from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.setup import Setup
 from pico.twin.arms import arms_of, motors
+from pico.twin.learned import read_learned, with_noise
 from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets
 from pico.vision.calibration import known_arms, read_calibration
@@ -34,7 +35,7 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
     if not names:
         raise no_cameras(setup)
-    eyes = Posed(setup, world, known_arms(root)).eyes(world)
+    eyes = Posed(with_noise(setup, read_learned(root)), world, known_arms(root)).eyes(world)
     pictures = [exposed(partial(eyes.frame, name)) for name in names]
     taken = recall_hands(root)
     if setup.lab.sim.observe == "sight":
@@ -50,7 +51,7 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:
     """Return what one camera sees of `world`; black where it was asked often enough."""
-    eyes = Posed(setup, world, known_arms(root), lit=False).eyes(world)
+    eyes = Posed(with_noise(setup, read_learned(root)), world, known_arms(root), lit=False).eyes(world)
     return exposed(partial(eyes.frame, name))
 
 

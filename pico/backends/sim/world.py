@@ -10,7 +10,7 @@ from dataclasses import field, replace
 from typing import Any
 
 from pico.cameras.errors import CameraShift
-from pico.geometry.seat import Seat, drawn
+from pico.geometry.seat import PlacementError, Seat, drawn
 from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
 from pico.model.pose import Pose
@@ -154,12 +154,12 @@ def initial_value(tunable: Tunable) -> Value:
     return tunable.range[0] if tunable.range else 0.0
 
 
-def put_down(setup: Setup, world: World, name: str, goal: Pose, times: float) -> tuple[Pose, Seat]:
-    """Return where a component comes to stand that is put down at `goal`, and how it sits: off by `times` what it
-    scatters, by the seed of the world and how often it was put down."""
+def put_down(setup: Setup, world: World, name: str, goal: Pose, one: PlacementError) -> tuple[Pose, Seat]:
+    """Return where a component comes to stand that is put down at `goal`, and how it sits: off by what it scatters
+    (`one` standard deviation each way), by the seed of the world and how often it was put down."""
     seat = world.components[name].seat
-    error = drawn(setup, name, world.seed, count := (seat.count if seat else 0) + 1, times)
-    return (error.of(goal) if times else goal), error.seat(count)
+    error = drawn(setup, name, world.seed, count := (seat.count if seat else 0) + 1, one=one)
+    return (error.of(goal) if one != PlacementError() else goal), error.seat(count)
 
 
 def footprints(world: World) -> Iterator[tuple[str, Footprint, Pose]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import zlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from difflib import get_close_matches
@@ -48,6 +48,25 @@ def load_run(folder: LabFolder, word: str | None = None) -> tuple[RecordedRun, C
     store, wanted = store_of(folder.root), {a.sha256 for a in run.document.artifacts}
     stored = {one: os.path.relpath(store.path(one), folder.root) for one in wanted if store.has(one)}
     return replace(run, stored=stored, missing=frozenset(wanted - stored.keys())), commit
+
+
+def load_runs(folder: LabFolder, names: Collection[str], diagnostics: list[Diagnostic]) -> tuple[RecordedRun, ...]:
+    """Return the runs of these ids, in their order; what is wrong with their files is appended to `diagnostics`, and
+    those that can't be read are left out."""
+    own = {run.document.id: run for run in unrecorded(folder, diagnostics)}
+    places = places_in_history(folder.repository, folder.root) if folder.repository else {}
+    found = []
+    for name in names:
+        wrong: list[Diagnostic] = []
+        try:
+            if name in own:
+                found.append(own[name])
+            else:  # one that is folded into another has no place of its own
+                found.append(_carried(folder, places[name], wrong)[0] if name in places else _loaded(folder, name)[0])
+        except PicoError as exc:
+            wrong += exc.diagnostics
+        diagnostics += wrong
+    return tuple(found)
 
 
 def runs_in(folder: LabFolder, commit: str) -> tuple[RecordedRun, ...]:

@@ -1,0 +1,1 @@
+"""What the twin of a bench learns from runs of it."""
