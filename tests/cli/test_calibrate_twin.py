@@ -11,6 +11,7 @@ import pytest
 from commanding import Pico, edit
 
 import pico as library
+from pico.history.runs.loading import load_runs
 from pico.model.learned import Estimate, Learned, Scatter
 from pico.runs.lessons import Lessons, lessons
 from pico.twin.learned import write_learned
@@ -22,7 +23,7 @@ TRUE = Learned(
     times={"move arm1": Estimate(value=1.35, sigma=0, count=1, before=1)},
 )  # fmt: skip
 """How the bench errs in truth. Its lab declares 0.1 mm and 0.05 deg, and a plan reckons with 1."""
-MOVES, HELD_OUT = 16, 8
+MOVES, HELD_OUT = 14, 6
 
 
 @pytest.fixture
@@ -41,8 +42,8 @@ def moved(root: Path, count: int) -> tuple[list[str], Lessons]:
         for n in range(count):
             x, y = ((520.0, 420.0), (560.0, 440.0))[n % 2]
             bench.apply(bench.single(PART, "move", x=x + n % 5, y=y, yaw=0))
-        runs = [bench.history.recorded_run(run.id)[0] for run, _ in bench.history.runs()[:count]]
-        return [run.document.id for run in runs], lessons(bench.setup, runs)
+        names = [run.id for run, _ in bench.history.runs()[:count]]
+        return names, lessons(bench.setup, load_runs(bench.folder, names, []))
 
 
 def both(told: Lessons) -> list[float]:

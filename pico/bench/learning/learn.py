@@ -82,15 +82,15 @@ class Twins:
         """Return the documents of the runs that are meant, each once, the oldest first."""
         history, begin = self.opened.history, _moment(since) if since else None
         found: dict[str, Run] = {}
+        every = [run for run, _ in history.runs(every=True, diagnostics=wrong)]
+        known = {run.id: run for run in every}
         for word in words:
-            listed = (
-                [run for run, _ in history.runs(word, diagnostics=wrong)]
-                if ".." in word
-                else [history.recorded_run(word)[0].document]
-            )
-            found |= {run.id: run for run in listed}
+            if ".." in word:
+                found |= {run.id: run for run, _ in history.runs(word, diagnostics=wrong)}
+            else:
+                run = known.get(word) or history.recorded_run(word)[0].document
+                found[run.id] = run
         if not words:
-            every = [run for run, _ in history.runs(every=True, diagnostics=wrong)]
             best = next((e for e in ("hardware", "emulated") if any(run.evidence == e for run in every)), None)
             found = {run.id: run for run in every if run.evidence == best}
         kept = [run for run in found.values() if begin is None or _moment(run.started_at) >= begin]
