@@ -294,6 +294,7 @@ class LocalEdge:
         from pico.edge.recovery import open_questions, settle
         from pico.edge.surveying import Surveying
         from pico.edge.teleoperating import Teleoperating
+        from pico.execution.conditions import Conditioned
 
         self._halted &= self._lease is not None  # what is halted stays so for who has the bench
         own = self._lease is None
@@ -316,7 +317,8 @@ class LocalEdge:
             self._steering = doing
             guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None, self.alone.most)
             counting = self._counting(guarded)
-            self._attempts, self._lease = Attempts(self.journal, counting, lease.token), lease
+            conditioned = Conditioned(self.setup, counting, self.observe)
+            self._attempts, self._lease = Attempts(self.journal, conditioned, lease.token), lease
             seen = await self.observe()
             self.settled = settle(self.setup, self.journal, seen, lease.token)
             if asked := open_questions(self.journal.unsettled()):

@@ -24,6 +24,8 @@ class Primitive:
     `repeatable`: it may be done again where looking shows that it was not done, for its target is absolute.
     `arguments`: what a person gives, with the unit of a number, None for a word; those of `set` are the tunables.
     `seconds`: what a plan reckons with where nothing better is known [s]. `counted`: one and several of it in a tally.
+    `requires`, `ensures`: what must hold of the bench before it is done, and afterwards; see
+    `pico.planning.checks.conditions`.
     """
 
     name: str
@@ -34,6 +36,8 @@ class Primitive:
     arguments: Mapping[str, str | None] = field(default_factory=dict)
     seconds: float = 1.0
     counted: tuple[str, str] = ("", "")
+    requires: tuple[str, ...] = ()
+    ensures: tuple[str, ...] = ()
 
     @property
     def carries(self) -> bool:

@@ -146,6 +146,18 @@ def _value(
         unknown[name] = f"nobody knows {name}"
 
 
+def shown(text: str, values: dict[str, Any]) -> str:
+    """Return the values that an expression speaks of: `p2.angle is 30, p2.pose.x is 520`."""
+    spoken = [n for n in sorted(values) if "." in n and re.search(rf"(?<![\w.]){re.escape(n)}(?![\w.])", text)]
+    return ", ".join(f"{n} is {_said(values[n])}" for n in spoken)
+
+
+def _said(value: object) -> str:
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return f"{value:.6g}" if isinstance(value, float | int) else f"`{value}`"
+
+
 def functions_of(
     setup: Setup, seen: Observation | None = None, reaches: Callable[[str, str], bool] = lambda *_: False
 ) -> tuple[Function, ...]:

@@ -21,6 +21,7 @@ from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, with_values
 from pico.model.vocabulary import measured_in
 from pico.planning.checks.beams import shutter_of
+from pico.planning.checks.conditions import refused
 from pico.planning.checks.emission import left_shut
 from pico.planning.measuring import measuring, unlit
 from pico.planning.optimizing import Turn, optimizing
@@ -84,8 +85,8 @@ def do_one(planner: Planner, component: str, name: str, arguments: Mapping[str, 
     """Return the goal of a primitive that a device does and that brings about no state; one that takes pictures for it
     needs what a picture needs.
 
-    Raises PicoError for a component that the lab does not have or that is not seen, and for a setting without a range
-    where one is to be found.
+    Raises PicoError for a component that the lab does not have or that is not seen, for a setting without a range
+    where one is to be found, and where what the primitive requires does not hold.
     """
     setup, seen = planner.setup, planner.seen
     _part(setup, seen, component)
@@ -102,10 +103,13 @@ def do_one(planner: Planner, component: str, name: str, arguments: Mapping[str, 
             )
             for op in measuring(setup, seen, [(component, "image")], ASKED, planner.motion)
         ])  # fmt: skip
-    return _asked(planner, [Operation(
+    one = Operation(
         id=new_id(), primitive=name, component=component, arguments=arguments, resources=(component,), reason=ASKED,
         seconds=seconds,
-    )])  # fmt: skip
+    )  # fmt: skip
+    if wrong := refused(setup, seen, one):
+        raise PicoError(wrong)
+    return _asked(planner, [one])
 
 
 def measure(planner: Planner, wanted: Sequence[tuple[str, str]], goals: Sequence[Turn] = ()) -> PlanGoal:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Sequence, Set
 
 from pico.diagnostics import PicoError, error
@@ -11,7 +10,7 @@ from pico.model.observation import Observation
 from pico.model.setup import Setup
 from pico.model.state import Expectation
 from pico.model.trace.expectation import Expected
-from pico.model.vocabulary import functions_of, names_of, numbers_of, spoken_of, values_of
+from pico.model.vocabulary import functions_of, names_of, numbers_of, shown, spoken_of, values_of
 from pico.policy.reaching import reaching
 
 
@@ -58,15 +57,3 @@ def check_expectations(
             why = shown(one.that, values)
         found.append(Expected(that=one.that, message=one.message, holds=holds, why=why, assured=assured))
     return tuple(found)
-
-
-def shown(text: str, values: dict[str, object]) -> str:
-    """Return the values that an expression speaks of: `p2.angle is 30, p2.pose.x is 520`."""
-    spoken = [n for n in sorted(values) if "." in n and re.search(rf"(?<![\w.]){re.escape(n)}(?![\w.])", text)]
-    return ", ".join(f"{n} is {_value(values[n])}" for n in spoken)
-
-
-def _value(value: object) -> str:
-    if isinstance(value, bool):
-        return "true" if value else "false"
-    return f"{value:.6g}" if isinstance(value, float | int) else f"`{value}`"

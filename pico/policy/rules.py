@@ -12,10 +12,9 @@ from pico.model.lab import PolicyRule
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
-from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, spoken_of, values_of
+from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, shown, spoken_of, values_of
 from pico.policy.audit import audit_of
 from pico.policy.context import policy_values
-from pico.policy.expectations import shown
 from pico.policy.reaching import reaching
 
 _NOBODY = "nothing tells whether somebody is at the table"

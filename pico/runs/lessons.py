@@ -20,8 +20,10 @@ from pico.runs.document import RecordedRun
 from pico.runs.journal import observed_from_json
 from pico.runs.operations import operations
 
-SEEN = ("", "stereo", "known height", "in hand")
-"""How a pose is known that somebody looked at just then."""
+LOOKED = ("stereo", "known height", "in hand")
+"""How a pose is known that a camera saw just then."""
+SEEN = ("", *LOOKED)
+"""The same where a simulator knows poses exactly, too."""
 ENDS = ("done", "failed", "unknown")
 
 
@@ -95,7 +97,7 @@ def _looks(setup: Setup, run: RecordedRun, found: Lessons) -> None:
             continue
         moved = event.kind in ENDS and _moves(meant.get((event.run, event.operation), ""))
         before = found.stood.pop(name, None) if moved else found.stood.get(name)
-        if part is None or part.pose is None or part.presence != "seen" or part.how not in SEEN:
+        if part is None or part.pose is None or part.presence != "seen" or part.how not in LOOKED:
             continue
         if before is not None and part.pose != before:  # the same pose to the last digit is the same look
             found.looked[name].append(_off(name, part.pose, before, part))

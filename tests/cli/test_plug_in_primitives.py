@@ -25,8 +25,29 @@ PRIMITIVE = Primitive(name="rinse", changes="anything", arguments={"volume": "mm
 
 def simulated(world, operation):
     return world.with_value(operation.component, "level", ObservedValue(value=operation.arguments["volume"]))
+
+KNOB = Primitive(name="turn_knob", changes="anything", arguments={"to": "mm"}, seconds=4.0,
+                 counted=("turn of a knob", "turns of knobs"),
+                 requires=("it.slot == 'storage/b4'", "args.to <= 15"), ensures=("abs(it.pose.yaw) < 5",))
+READ = Primitive(name="read_knob", changes="anything", ensures=("it.level > 0",))
+
+def turned(world, operation):  # what the knob sits on turns with it, a degree a millimetre
+    name, to = operation.component, operation.arguments["to"]
+    world = world.with_value(name, "level", ObservedValue(value=to, status="commanded"))
+    return world.with_body(name, pose=replace(world.components[name].pose, yaw=to))
+
+def left(world, operation):
+    return world
 """
-ENTRIES = "[pico.primitives]\nrinse = rinse:PRIMITIVE\n[pico.sim.primitives]\nrinse = rinse:simulated\n"
+ENTRIES = """[pico.primitives]
+rinse = rinse:PRIMITIVE
+turn_knob = rinse:KNOB
+read_knob = rinse:READ
+[pico.sim.primitives]
+rinse = rinse:simulated
+turn_knob = rinse:turned
+read_knob = rinse:left
+"""
 
 
 @pytest.fixture
@@ -55,7 +76,7 @@ def cuvette(shel: Path) -> Path:
     edit(
         own,
         "primitives: [move, stow]",
-        "tunables: {level: {unit: mm, range: [0, 20]}}\nprimitives: [move, stow, rinse]",
+        "tunables: {level: {unit: mm, range: [0, 20]}}\nprimitives: [move, stow, rinse, turn_knob, read_knob]",
     )
     lab = (shel / "lab.yaml").read_text()
     at = lab.index("inventory:\n") + len("inventory:\n")
@@ -84,6 +105,34 @@ def test_a_plug_in_brings_a_primitive(rinse: None, cuvette: Path, pico: Pico) ->
 def test_its_arguments_are_checked(rinse: None, cuvette: Path, pico: Pico, words: tuple[str, ...], said: str) -> None:
     answer = pico("do", "cell", "rinse", *words, "-y")
     assert answer.code == 1 and said in answer.err
+
+
+def test_what_a_primitive_requires_must_hold_before_it(rinse: None, cuvette: Path, pico: Pico) -> None:
+    for words in (("turn_knob", "to=20"), ("turn_knob", "to=20", "--dry-run")):
+        answer = pico("do", "cell", *words, "-y")
+        assert answer.code == 1 and "turn_knob of cell wants `args.to <= 15`: args.to is 20" in answer.err
+    assert pico("do", "cell", "move", "slot=storage/c3", "-y").code == 0
+    answer = pico("do", "cell", "turn_knob", "to=3", "-y")
+    assert answer.code == 1 and "wants `cell.slot == 'storage/b4'`: cell.slot is `storage/c3`" in answer.err
+
+
+def test_what_nothing_reads_is_commanded_and_what_is_ensured_must_hold_after_it(
+    rinse: None, cuvette: Path, pico: Pico
+) -> None:
+    assert pico("do", "cell", "turn_knob", "to=3", "-y").code == 0
+    assert pico("get", "cell.level", "--json").data["values"]["level"]["status"] == "commanded"
+    answer = pico("do", "cell", "turn_knob", "to=12", "-y")
+    said = "turn_knob of cell was done, and does not hold: `abs(cell.pose.yaw) < 5`: cell.pose.yaw is 12"
+    assert answer.code == 1 and said in answer.err
+    run = pico("runs", "list", "--all", "--json").data["runs"][0]
+    (did,) = pico("runs", "show", run["document"]["id"], "--json").data["operations"]
+    assert did["outcome"] == "failed" and did["error"]["code"] == "ensures"
+
+
+def test_what_is_ensured_and_nobody_can_tell_is_unknown(rinse: None, cuvette: Path, pico: Pico) -> None:
+    assert pico("do", "cell", "turn_knob", "to=3", "-y").code == 0
+    answer = pico("do", "cell", "read_knob", "-y")
+    assert answer.code == 1 and "cell.level was commanded, and never read back" in answer.err
 
 
 def test_without_the_plug_in_the_type_says_what_it_lacks(cuvette: Path, pico: Pico) -> None:

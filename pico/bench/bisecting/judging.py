@@ -13,8 +13,8 @@ from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.model.state import Expectation, LabState
-from pico.model.vocabulary import measured_in, spoken_of, values_of
-from pico.policy.expectations import check_expectations, shown
+from pico.model.vocabulary import measured_in, shown, spoken_of, values_of
+from pico.policy.expectations import check_expectations
 
 UNSURE = frozenset({"missing", "toppled", "held", "uncertain", "hand-full"})
 """Diagnostics of a plan that are about the bench as it stands, not about where it should go."""
