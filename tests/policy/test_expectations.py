@@ -16,7 +16,8 @@ from pico.model.setup import Setup
 from pico.model.state import Expectation
 from pico.model.trace.expectation import Expected, Verified
 from pico.model.trace.report import RunReport
-from pico.policy.expectations import check_expectations, shown
+from pico.model.vocabulary import shown
+from pico.policy.expectations import check_expectations
 from pico.policy.reaching import reaching
 from pico.resources import labs_dir
 
