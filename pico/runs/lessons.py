@@ -95,8 +95,9 @@ def _looks(setup: Setup, run: RecordedRun, found: Lessons) -> None:
         name, part = event.component or "", _seen(event)
         if name not in setup.lab.inventory or (part is None and event.kind not in ENDS):
             continue
-        moved = event.kind in ENDS and _moves(meant.get((event.run, event.operation), ""))
-        before = found.stood.pop(name, None) if moved else found.stood.get(name)
+        if event.kind in ENDS and _moves(meant.get((event.run, event.operation), "")):
+            found.stood.pop(name, None)
+        before = found.stood.get(name)
         if part is None or part.pose is None or part.presence != "seen" or part.how not in LOOKED:
             continue
         if before is not None and part.pose != before:  # the same pose to the last digit is the same look
