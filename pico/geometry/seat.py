@@ -11,11 +11,11 @@ import random
 from dataclasses import astuple, dataclass, replace
 
 from pico.model.catalog import SEATINGS, ComponentType, Repeatability, SeatingKind
-from pico.model.learned import Learned
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import QuantityError, convert
 from pico.model.record import record
 from pico.model.setup import Setup
+from pico.model.trace.learned import Learned
 
 
 @record

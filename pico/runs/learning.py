@@ -12,9 +12,9 @@ from dataclasses import field
 
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry.seat import injected, scatter_of
-from pico.model.learned import Estimate, Learned, Scatter
 from pico.model.record import record
 from pico.model.setup import Setup
+from pico.model.trace.learned import Estimate, Learned, Scatter
 from pico.runs.lessons import Lessons, Off
 from pico.runs.robust import Found, between, ratio, scatter
 

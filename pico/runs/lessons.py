@@ -10,11 +10,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.model.learned import work
 from pico.model.observation import ObservedComponent
 from pico.model.pose import Pose, angle_between
 from pico.model.primitive import primitive
 from pico.model.setup import Setup
+from pico.model.trace.learned import work
 from pico.model.trace.run import TraceEvent
 from pico.runs.document import RecordedRun
 from pico.runs.journal import observed_from_json
@@ -42,7 +42,7 @@ class Off:
 
 @dataclass(slots=True)
 class Lessons:
-    """All of that: `placed`; `times`, pairs of measured and planned seconds by `pico.model.learned.work`; `looked`,
+    """All of that: `placed`; `times`, pairs of measured and planned seconds by `pico.model.trace.learned.work`; `looked`,
     steps from look to look, by part; `stood`, where each part was seen last."""
 
     placed: list[Off] = field(default_factory=list)

@@ -10,9 +10,9 @@ from typing import Any
 
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
-from pico.model.learned import FORMAT, Estimate, Learned, Scatter
 from pico.model.record import as_json
 from pico.model.setup import Setup
+from pico.model.trace.learned import FORMAT, Estimate, Learned, Scatter
 
 FILE = "twin.json"
 

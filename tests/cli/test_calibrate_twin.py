@@ -12,7 +12,7 @@ from commanding import Pico, edit
 
 import pico as library
 from pico.history.runs.loading import load_runs
-from pico.model.learned import Estimate, Learned, Scatter
+from pico.model.trace.learned import Estimate, Learned, Scatter
 from pico.runs.lessons import Lessons, lessons
 from pico.twin.learned import write_learned
 

@@ -10,8 +10,8 @@ import pytest
 
 from pico.geometry.seat import PlacementError, drawn, injected, scatter_of
 from pico.manifest.load import load_folder
-from pico.model.learned import Estimate, Learned, Scatter
 from pico.model.simulated import SimErrors
+from pico.model.trace.learned import Estimate, Learned, Scatter
 from pico.resources import labs_dir
 from pico.runs.learning import ENOUGH, learn
 from pico.runs.lessons import Lessons, Off

@@ -11,7 +11,7 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.stretching import stretched
 from pico.diagnostics import PicoError, error
 from pico.manifest.load import load_folder
-from pico.model.learned import Estimate, Learned, Scatter, work
+from pico.model.trace.learned import Estimate, Learned, Scatter, work
 from pico.resources import labs_dir
 from pico.twin.learned import FILE, read_learned, with_noise, write_learned
 

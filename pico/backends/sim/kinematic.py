@@ -11,11 +11,11 @@ from pico.backends.attempt import Failed
 from pico.backends.sim.mover import InProgress
 from pico.backends.sim.world import World, put_down
 from pico.geometry.seat import PlacementError, Seat, injected
-from pico.model.learned import Learned
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.model.trace.learned import Learned
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints, MovePath, Segment, Stage
 from pico.twin.arms import arms_of

@@ -15,11 +15,11 @@ from pico.backends.sim.world import FreePose, World, WorldBody, put_down
 from pico.diagnostics import error
 from pico.geometry.seat import Seat, injected
 from pico.model.catalog import Geometry
-from pico.model.learned import Learned
 from pico.model.observation import ObservedRobot, Presence
 from pico.model.operation import Operation
 from pico.model.pose import Pose, angle_between
 from pico.model.setup import Setup
+from pico.model.trace.learned import Learned
 from pico.motion.types import MovePath, Stage
 from pico.twin.arms import arms_of
 from pico.twin.gestures import walk

@@ -35,7 +35,6 @@ from pico.backends.sim.stretching import stretched
 from pico.backends.sim.timeline import Timeline
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.model.learned import Learned, work
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, doubtful, slot_at
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
@@ -44,6 +43,7 @@ from pico.model.record import as_json
 from pico.model.setpoint import home_seconds, set_seconds
 from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
+from pico.model.trace.learned import Learned, work
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
 from pico.teleop.frames import STEPS
 from pico.twin.learned import read_learned, with_noise

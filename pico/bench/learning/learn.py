@@ -13,7 +13,7 @@ from pico.model.trace.run import STRENGTH, Run
 from pico.twin.learned import read_learned, write_learned
 
 if TYPE_CHECKING:
-    from pico.model.learned import Learned
+    from pico.model.trace.learned import Learned
     from pico.runs.document import RecordedRun
     from pico.runs.learning import Lesson, Row
     from pico.runs.lessons import Lessons

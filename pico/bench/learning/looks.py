@@ -9,9 +9,9 @@ from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
-from pico.model.learned import Learned, Scatter
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.model.trace.learned import Learned, Scatter
 from pico.runs.robust import between
 
 LOOKS = 8
