@@ -125,7 +125,7 @@ class Bench(Opened):
         """The simulated bench, and what it learns from runs of the real one."""
         from pico.bench.learning.learn import Twins
 
-        return Twins(self)
+        return Twins(self.folder, self.history, self.fidelity)
 
     @cached_property
     def drift(self) -> Watch:

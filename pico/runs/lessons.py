@@ -42,7 +42,7 @@ class Off:
 
 @dataclass(slots=True)
 class Lessons:
-    """All of that: `placed`; `times`, pairs of measured and planned seconds by `pico.model.trace.learned.work`; `looked`,
+    """All of that: `placed`; `times`, pairs of measured and planned seconds by `work`; `looked`,
     steps from look to look, by part; `stood`, where each part was seen last."""
 
     placed: list[Off] = field(default_factory=list)

@@ -7,8 +7,9 @@ from dataclasses import replace
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING
 
-from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.history.lab.folder import LabFolder
+from pico.history.lab_history import LabHistory
 from pico.model.trace.run import STRENGTH, Run
 from pico.twin.learned import read_learned, write_learned
 
@@ -22,8 +23,8 @@ if TYPE_CHECKING:
 class Twins:
     """The twin of one bench."""
 
-    def __init__(self, opened: Opened) -> None:
-        self.opened = opened
+    def __init__(self, folder: LabFolder, history: LabHistory, fidelity: str) -> None:
+        self.folder, self.history, self.fidelity = folder, history, fidelity
 
     def learn(self, *runs: str, since: str | None = None, write: bool = True) -> Lesson:
         """Let the twin learn how parts scatter, how long operations take and how cameras see from recorded runs, and
@@ -36,11 +37,11 @@ class Twins:
         from pico.runs.learning import learn, looks_of
         from pico.runs.lessons import lessons
 
-        opened, wrong = self.opened, list[Diagnostic]()
+        setup, root, wrong = self.folder.setup, self.folder.root, list[Diagnostic]()
         chosen = self._chosen(runs, since, wrong)
         recorded = self._loaded(chosen, wrong)
-        told, had = lessons(opened.setup, recorded), read_learned(opened.root)
-        found = learn(opened.setup, told, had, 0.0 if opened.fidelity == "kinematic" else 1.0)
+        told, had = lessons(setup, recorded), read_learned(root)
+        found = learn(setup, told, had, 0.0 if self.fidelity == "kinematic" else 1.0)
         weakest = min((run.evidence for run in chosen), key=lambda one: STRENGTH[one])
         learned = replace(
             found.learned, made_at=f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}", evidence=weakest,
@@ -48,7 +49,7 @@ class Twins:
         )  # fmt: skip
         learned, rows = self._looked(told, learned, had)
         if write:
-            write_learned(opened.root, learned)
+            write_learned(root, learned)
         return replace(
             found, learned=learned, rows=(*found.rows, *rows), diagnostics=(*wrong, *found.diagnostics), written=write
         )
@@ -58,11 +59,11 @@ class Twins:
         from pico.bench.learning.looks import noise_of
         from pico.runs.learning import Row
 
-        opened, looks = self.opened, learned.looks
+        setup, root, looks = self.folder.setup, self.folder.root, learned.looks
         before = had.noise if had else None
-        own = opened.setup.lab.sim.errors.noise if before is None else before
+        own = setup.lab.sim.errors.noise if before is None else before
         stood = {name: pose for name, pose in told.stood.items() if told.looked.get(name)}
-        found = noise_of(opened.setup, opened.root, stood, looks, own) if looks and stood else None
+        found = noise_of(setup, root, stood, looks, own) if looks and stood else None
         if looks is None or found is None:
             return replace(learned, noise=before), ()
         pairs = zip((looks.position, looks.yaw), found.before, found.after, ("mm", "deg"), strict=True)
@@ -80,7 +81,7 @@ class Twins:
 
     def _chosen(self, words: Sequence[str], since: str | None, wrong: list[Diagnostic]) -> tuple[Run, ...]:
         """Return the documents of the runs that are meant, each once, the oldest first."""
-        history, begin = self.opened.history, _moment(since) if since else None
+        history, begin = self.history, _moment(since) if since else None
         found: dict[str, Run] = {}
         every = [run for run, _ in history.runs(every=True, diagnostics=wrong)]
         known = {run.id: run for run in every}
@@ -104,7 +105,7 @@ class Twins:
     def _loaded(self, chosen: Sequence[Run], wrong: list[Diagnostic]) -> tuple[RecordedRun, ...]:
         from pico.history.runs.loading import load_runs
 
-        return load_runs(self.opened.folder, [run.id for run in chosen], wrong)
+        return load_runs(self.folder, [run.id for run in chosen], wrong)
 
 
 def _moment(text: str) -> datetime:
