@@ -18,6 +18,7 @@ def moves_ordered(draft: Draft) -> Draft:
         return draft
     from pico.planning.explaining.proof import proof, standing_proof
     from pico.planning.explaining.refusal import explain, storage_note
+    from pico.planning.ordering.remembered import remembered
     from pico.planning.ordering.solve import OrderedMoves, OrderingProblem, solve
     from pico.planning.passes.move_operations import move_operations
 
@@ -32,8 +33,9 @@ def moves_ordered(draft: Draft) -> Draft:
         return replace(draft, blocking=standing_proof(setup, movers, obstacles, draft.motion)).told(*impossible)
     if goal.alone:
         movers = tuple(replace(m, stages=False) for m in movers)
+    motion = remembered(draft.motion) if draft.motion else None
     answer = solve(OrderingProblem(
-        setup, draft.seen, movers, tuple(obstacles), asides(draft, movers), draft.motion,
+        setup, draft.seen, movers, tuple(obstacles), asides(draft, movers), motion,
         fastest=goal.prefer == "shortest-time",
     ))  # fmt: skip
     if not isinstance(answer, OrderedMoves):
