@@ -377,6 +377,8 @@ def main() -> int:
                     f"  {ended} operations, {time.monotonic() - began:.0f} s, at {trial.at}: {trial.why[:200]}",
                     flush=True,
                 )
+        except KeyboardInterrupt:  # what was found until then is told
+            pass
         finally:
             bench.close()
             trial.wires.close()
