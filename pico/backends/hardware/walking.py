@@ -23,6 +23,8 @@ if TYPE_CHECKING:
 
 SQUEEZE = 4.0
 """By how much the fingers are to come closer than the width of a part [mm], so that they press on it."""
+NOWHERE = 1e-6
+"""A joint that turns by less [rad] in no time does not turn."""
 FIRST_SPEED = 50.0
 """The greatest speed of the tool while a driver was never tried on a device [mm/s]."""
 
@@ -81,10 +83,14 @@ class Way:
                 await self._require_held()
 
     def _told(self, segment: Segment) -> tuple[Array, Array]:
-        """The leg as the motors are told: times [s], and joints [rad] put right by what calibration knows."""
+        """The leg as the motors are told: times [s], and joints [rad] put right by what calibration knows; one that
+        ends where it begins, in no time, is a single posture."""
         import numpy as np
 
-        return np.array(segment.times) * self._slow, self._built.told(np.array(segment.joints))
+        times, joints = np.array(segment.times), np.array(segment.joints)
+        goes = (np.diff(times) > 0) | (np.abs(np.diff(joints, axis=0)).max(axis=1) > NOWHERE)
+        kept = np.concatenate(([True], goes))
+        return times[kept] * self._slow, self._built.told(joints[kept])
 
     async def _open(self, width: float) -> None:
         if self._gripper is not None:

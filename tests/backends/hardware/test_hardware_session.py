@@ -17,6 +17,7 @@ from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.tunables import Motorized, Shut
+from pico.backends.hardware.walking import Way
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
@@ -28,6 +29,7 @@ from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
+from pico.motion.types import MovePath, Segment
 from pico.twin.arms import TwinArm
 
 SLOT, GOAL = "storage/a3", Pose(395, 420, 0)
@@ -388,3 +390,17 @@ def test_what_cameras_were_told_is_kept_where_the_bench_is(tmp_path: Path) -> No
     Settings(tmp_path, "hardware").put("cam.exposure", 5.0)
     assert Settings(tmp_path, "hardware").get("cam.exposure", 0.02) == 5.0
     assert Settings(tmp_path, "emulated").get("cam.exposure", 0.02) == 0.02
+
+
+def test_a_leg_that_ends_where_it_begins_is_not_gone(setup: Setup) -> None:
+    """A hand that was left just where the lift ends, as after a fault, must still get rid of what it holds."""
+    bench = Bench(setup)
+    park = setup.lab.robots["arm1"].park_joints
+    path = MovePath("arm1", "lx_125", (Segment("lift", (0.0, 0.0), (park, park), 84.0),))
+
+    async def asked(stage: object) -> None:
+        """Nothing is asked."""
+
+    way = Way(setup, move(), path, bench, None, TwinArm(setup.lab.robots["arm1"]), asked)  # type: ignore[arg-type]
+    asyncio.run(way.walk())
+    assert bench.legs == 0
