@@ -87,7 +87,10 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
         twisted = [name for name in names if sorted(name) == sorted(unknown)]
         begun = [name for name in names if name[0] == unknown[:1]]
         near = did_you_mean(unknown, twisted, 0.0) if twisted else did_you_mean(unknown, begun, ALIKE)
-        hint = near if near.startswith("did") else f"`{path} --help` lists the commands"
+        lists = f"`{path} --help` lists the commands"
+        if "show" in names and re.fullmatch(r"[\w.-]+", unknown):
+            lists = f"`{path} show {unknown}` where that is a name; {lists}"
+        hint = near if near.startswith("did") else lists
     return error("usage", message[:1].lower() + message[1:], hint=hint)
 
 

@@ -45,8 +45,11 @@ def _without(d: Run) -> str:
 
 
 def deed(d: Run) -> str:
-    """Return what a run was for: `apply e1`, `undo 2026...`, `move p2`."""
+    """Return what a run was for: `apply e1`, `undo 2026...`, `move p2`, `recipe malus`, `malus: e1` of a step of it."""
     goal = shown(d.goal)
+    if d.cause.recipe and d.cause.kind == "recipe":
+        name = shown(str(d.cause.recipe).partition("@")[0])
+        return f"recipe {name}" if goal in ("", name) else f"{name}: {goal}"
     if d.cause.kind in ("undo", "resume", "recover") or not d.cause.kind:
         of = f" {shown(d.cause.of)}" if d.cause.of else ""
         return f"{shown(d.cause.kind)}{of}" if d.cause.kind else goal

@@ -110,6 +110,8 @@ def test_all_that_a_recipe_measured_is_one_table_whatever_runs_it_took(shel: Pat
     runs = [row["run"] for row in rows[:1]]
     alone = pico("-C", str(shel), "runs", "export", "--as", "csv", "--run", runs[0])
     assert alone.out.splitlines()[0].startswith("seq,t,at,measured") and len(alone.out.splitlines()) == 3
+    listed = pico("-C", str(shel), "runs", "list").out
+    assert "recipe turned" in listed, listed
     wrong = pico("-C", str(shel), "runs", "export", "--recipe", "turned")
     assert wrong.code == 1 and "--as csv --recipe NAME" in wrong.err
 
