@@ -4,6 +4,7 @@ bench's folder."""
 from __future__ import annotations
 
 import json
+import threading
 from pathlib import Path
 
 from pico.attachment import bench_folder
@@ -12,10 +13,12 @@ from pico.model.quantities import Value
 
 
 class Settings:
-    """Values by address, as they were told last; kept in the folder of the `bench` of the lab in `root`."""
+    """Values by address, as they were told last; kept in the folder of the `bench` of the lab in `root`. Links tell and
+    ask of it, each in a thread of its own."""
 
     def __init__(self, root: Path, bench: str, name: str = "settings.json") -> None:
         self._path = bench_folder(root) / bench / name
+        self._lock = threading.Lock()
 
     def get(self, address: str, default: Value) -> Value:
         """Return what was told last, `default` where nothing was, or that can't be read."""
@@ -23,8 +26,9 @@ class Settings:
 
     def put(self, address: str, value: Value) -> None:
         """Keep what was told; raises PicoError where that can't be written."""
-        data = json.dumps({**self._read(), address: value}, sort_keys=True).encode()
-        write_whole(self._path, data, what="the settings of the bench can't be kept", folders=True)
+        with self._lock:
+            data = json.dumps({**self._read(), address: value}, sort_keys=True).encode()
+            write_whole(self._path, data, what="the settings of the bench can't be kept", folders=True)
 
     def _read(self) -> dict[str, Value]:
         try:
