@@ -167,11 +167,12 @@ def test_while_a_bench_plans_the_loop_of_its_edge_answers(tmp_path: Path, monkey
     assert answered.is_set()
 
 
-def test_only_the_run_that_drives_an_edge_and_the_end_of_its_loop_are_asynchronous_in_the_services() -> None:
+def test_only_what_drives_an_edge_or_asks_instruments_themselves_is_asynchronous_in_the_services() -> None:
     root = Path(pico.__file__).parent / "bench"
     found = {
         str(path.relative_to(root))
         for path in root.rglob("*.py")
         if any(isinstance(node, ast.AsyncFunctionDef | ast.Await) for node in ast.walk(ast.parse(path.read_text())))
     }
-    assert found == {"running/execution.py", "running/loop.py"}
+    asks_instruments = {f"commissioning/{name}.py" for name in ("pulling", "reaching", "swinging")}
+    assert found == {"running/execution.py", "running/loop.py"} | asks_instruments
