@@ -75,12 +75,6 @@ def answered(commands: Commands, record: Record) -> Commands:
     return commands._with(replace(row, state=record.phase, result=record.result))
 
 
-def stopped(commands: Commands, command: Command) -> Commands:
-    """End a command that the edge does not do because one before it in its run was not done."""
-    row = commands.rows.get(command.key)
-    return commands._with(replace(row, state="withdrawn")) if row and row.state == "waiting" else commands
-
-
 def reconciled(commands: Commands, memory: Memory) -> Commands:
     """Bring what is open in line with what the edge remembers, as it says whenever it is heard of. What waits of leases
     below the one that it fenced for, and it has no record of, will never be done."""

@@ -517,8 +517,6 @@ class Coordinator(Process):
     def answered(self, command: Command, record: Record | None, refused: str, taken: int) -> None:
         row, turn = self.db.row, leasing.Turn(self.db.row)
         commands = commanding.answered(self.db.commands, record) if record else self.db.commands
-        if refused == "stopped":
-            commands = commanding.stopped(commands, command)
         if refused == "gap" and taken >= command.seq and row.grant and row.grant.token == command.token:
             grant = row.grant  # the edge has done what this database never heard of
             turn = leasing.released(row, grant.holder.session, grant.token, self.clock(), self.met)
