@@ -52,6 +52,7 @@ BUGS = (
     Bug("not asked again before it moves", GATE, "    return gate.may_move(token, now) or (offline and alone(gate, token, now))", "    return True"),
     Bug("any job may go on by itself", GATE, "not gate.pending and now <= gate.deadline + gate.budget", "not gate.pending"),
     Bug("what has ended still runs", GATE, 'running="" if gate.running == key else gate.running', "running=gate.running"),
+    Bug("left as it is when nobody has it", GATE, "    return not gate.running and now > gate.deadline and", "    return gate.running is None and now > gate.deadline and"),
     Bug("anybody may steer", GATE, "    if not gate.may_move(token, now):", "    if gate.pending:"),
     Bug("steered while something else moves", GATE, "    frame = None if gate.running else gate", "    frame = gate"),
     Bug("a step may be longer than its frame counts", GATE, "gate.steering.authorized(now, seconds)", "gate.steering.authorized(now, 0.0)"),
@@ -68,8 +69,8 @@ HARMLESS = (
     Bug("taken on without a lease", GATE, "    elif not gate.may_move(command.token, now):", "    elif gate.pending:"),
 )  # fmt: skip
 """Plants that change nothing, because the product looks twice: `may_move` and `begins` refuse the same, and what runs is
-unsettled; and what was granted by a database of before lapses, for the edge never fences for it, and it
-tells what a person said, too. Hunted and printed all the same, and not counted."""
+unsettled; and what was granted by a database of before lapses, for the edge never fences for it, and it tells
+what a person said, too. Hunted and printed all the same, and not counted."""
 
 
 def main() -> int:

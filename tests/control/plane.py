@@ -7,13 +7,14 @@ and it alone judges: each motion is checked when it begins, by what then is true
 
 from __future__ import annotations
 
-import heapq
 import json
 import random
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
+
+from chaos import Crash, Network, Process, Sim, Violation
 
 from pico.control import commands as commanding
 from pico.control import gate as gating
@@ -30,120 +31,6 @@ CAP = 60.0
 """How long a job may go on by itself at most [s]."""
 STEP = 0.1
 """How long a step of a teleoperation takes [s]."""
-
-
-class Violation(Exception):
-    """An invariant does not hold."""
-
-
-class Crash(BaseException):
-    """The process is dead."""
-
-
-@dataclass
-class Sim:
-    """The clock, what is to happen, and the dice."""
-
-    random: random.Random
-    now: float = 0.0
-    healed: bool = False
-    crashes: int = 0
-    cuts: int = 0
-    points: int = 0
-    left: int = 0
-    """Points until somebody crashes, 0 for nobody."""
-    _heap: list[tuple[float, int, Callable[[], None]]] = field(default_factory=list)
-    _count: int = 0
-
-    def after(self, seconds: float, what: Callable[[], None]) -> None:
-        self._count += 1
-        heapq.heappush(self._heap, (self.now + seconds, self._count, what))
-
-    def run(self, until: float, over: Callable[[], bool]) -> None:
-        while self._heap and self._heap[0][0] <= until and not over():
-            self.now, _, what = heapq.heappop(self._heap)
-            what()
-
-    def chance(self, rate: float) -> bool:
-        return not self.healed and self.random.random() < rate
-
-    def point(self) -> None:
-        """A place between two steps at which a process may die."""
-        self.points += 1
-        if self.left:
-            self.left -= 1
-            if not self.left and not self.healed:
-                self.crashes += 1
-                raise Crash
-
-
-@dataclass
-class Network:
-    """Links by the names of their ends."""
-
-    sim: Sim
-    cut: dict[frozenset[str], float] = field(default_factory=dict)
-
-    def send(self, a: str, b: str, deliver: Callable[[], None]) -> None:
-        sim, draw = self.sim, self.sim.random
-        if not sim.healed and (self.cut.get(frozenset((a, b)), 0.0) > sim.now or draw.random() < 0.05):
-            return
-        for _ in range(2 if sim.chance(0.05) else 1):
-            late = draw.uniform(0, 14) if sim.chance(0.04) else draw.uniform(0.001, 0.02)
-            sim.after(late, deliver)
-
-
-@dataclass
-class Process:
-    """Something that can die, and comes back after a while without what it had in memory."""
-
-    sim: Sim
-    name: str
-    net: Network
-    life: int = 0
-    down: bool = False
-
-    def guarded(self, what: Callable[..., None], *given: Any) -> Callable[[], None]:
-        """Return a call for this life of the process alone."""
-        life = self.life
-
-        def call() -> None:
-            if self.down or life != self.life:
-                return
-            try:
-                what(*given)
-            except Crash:
-                self.die()
-
-        return call
-
-    def arriving(self, what: Callable[..., None], *given: Any) -> Callable[[], None]:
-        """Return a call that reaches whoever lives under that name when it comes."""
-
-        def call() -> None:
-            if not self.down:
-                self.guarded(what, *given)()
-
-        return call
-
-    def die(self) -> None:
-        self.down = True
-        self.life += 1
-        self.sim.after(self.sim.random.choice((0.2, 2.0, 12.0)), self._rise)
-
-    def _rise(self) -> None:
-        self.down = False
-        self.guarded(self.begin)()
-
-    def begin(self) -> None:
-        raise NotImplementedError
-
-    def every(self, seconds: float, what: Callable[[], None]) -> None:
-        def again() -> None:
-            what()
-            self.sim.after(seconds, self.guarded(again))
-
-        self.guarded(again)()
 
 
 @dataclass
@@ -492,7 +379,6 @@ class Coordinator(Process):
             if {"failed", "withdrawn"} & set(states) or not any(s in commanding.OPEN for s in states):
                 job = row.grant
                 turn = leasing.released(row, job.holder.session, job.token, self.clock(), self.met)
-                self.plane.job_over(job.job, all(s == "done" for s in states))
             else:
                 turn = leasing.kept(row, row.grant.job, self.clock())
         self._commit(turn.then(lambda r: leasing.promoted(r, self.clock(), self.met)))
@@ -522,7 +408,6 @@ class Coordinator(Process):
             turn = leasing.released(row, grant.holder.session, grant.token, self.clock(), self.met)
             lost = Said(grant.holder.session, "lost", grant.token, why="restored")
             turn = replace(turn, said=(*turn.said, lost))
-            self.plane.job_over(grant.job, False)
         news = commands is not self.db.commands
         self._commit(turn, commands)
         if news:
@@ -534,9 +419,6 @@ class Coordinator(Process):
         self._commit(leasing.asked(self.db.row, asker, self.clock(), self.met))
 
     def steals(self, asker: Asker, why: str) -> None:
-        grant = self.db.row.grant
-        if grant and grant.job:
-            self.plane.job_over(grant.job, False)
         self._commit(leasing.stolen(self.db.row, asker, why, self.clock(), self.met))
 
     def renews(self, session: str, token: int) -> None:
@@ -698,29 +580,22 @@ class Plane:
         for process in (self.edge, self.coordinator, *self.clients.values()):
             process.plane = self  # type: ignore[attr-defined]
         self.edge.bench = self.coordinator.bench = self.bench
-        self.jobs: dict[str, bool] = {}
 
     def lacking(self, goal: dict[str, int]) -> list[str]:
         """What a client sees is still to be done."""
         found = [f"{a}={v}" for a, v in goal.items() if a.isdigit() and self.bench.axes[int(a)] != v]
         found += ["glue=1"] if goal.get("glue") and not self.bench.glued else []
-        if "job" in goal and not any(k.startswith("job") for k in self.done_jobs(goal)):
-            found.append(f"job={goal['job']}")
+        records = self.edge.store.read().records.values()
+        job = f"job={goal.get('job')}"
+        if "job" in goal and not any(r.phase == "done" and r.command.digest == job for r in records):
+            found.append(job)
         return found
-
-    def done_jobs(self, goal: dict[str, int]) -> Iterator[str]:
-        for record in self.edge.store.read().records.values():
-            if record.phase == "done" and record.command.digest == f"job={goal['job']}":
-                yield record.command.digest
 
     def durable(self, key: str) -> None:
         """What a client hears that it is done, the edge has written, or a person said."""
         record = self.edge.store.read().records.get(key)
         if record is None or record.phase not in ("done", "unknown"):
             raise Violation(f"I6: a client hears that {key} is done, and the edge has {record}")
-
-    def job_over(self, job: str, done: bool) -> None:
-        """A detached run has ended: somebody who comes back looks, and plans anew where that is needed."""
 
     @property
     def unknown(self) -> list[str]:
@@ -771,6 +646,9 @@ class Plane:
         for name, client in self.clients.items():
             if not client.finished:
                 raise Violation(f"I10: {name} does not come to an end")
+        self.sim.run(self.sim.now + PEACE, lambda: self.bench.parked)
+        if not self.bench.parked:
+            raise Violation("I3: nobody has the bench, and it is not parked")
         if self.unknown:
             raise Violation(f"I7: nobody settles {self.unknown}")
 
