@@ -117,7 +117,7 @@ def test_a_lost_control_box_is_noticed_and_found_again(rig: Rig, how: str) -> No
     said = rig.do(_meets(rig, getattr(rig.emulator, how)))
     assert re.search(LOST, str(said)) and "op3: move lx_100" in str(said)
     if how == "freeze":
-        assert rig.link.arm.connected, "that the library says connected means nothing"
+        # What the library says of `connected` is sometimes true here, sometimes not: nothing reads it.
         with pytest.raises(PicoError, match=LOST):
             rig.do(rig.arm.state())
         rig.emulator.thaw()
