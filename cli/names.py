@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "serve": "serving a bench to others",
     "remote": "benches elsewhere",
     "lease": "who has a bench",
     "login": "people at a served bench",
@@ -33,7 +32,7 @@ RESERVED = {
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices", "edge",
-    "commission",
+    "commission", "serve",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

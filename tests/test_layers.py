@@ -16,7 +16,7 @@ ORDER = (
     "control", "content", "geometry",
     "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "drivers", "emulators",
-    "backends", "policy", "execution", "runs", "edge", "history", "bench", "scripting", "recipes",
+    "backends", "policy", "execution", "runs", "edge", "history", "bench", "scripting", "recipes", "server",
 )  # fmt: skip
 LOOSE = 6
 """How many modules may lie beside the rooms."""
@@ -119,7 +119,7 @@ def test_what_only_tests_ask_is_no_part_of_the_library() -> None:
         f"{path.relative_to(ROOT)}:{node.lineno} {node.name}: a test's own goes to tests/oracles"
         for name, path in FILES.items()
         if room(name) not in ("scripting", "drivers")  # a driver does what its kind demands, whoever asks for it
-        and room(name) != "control"  # which waits for its coordinator
+        and room(name) not in ("control", "server")  # which those elsewhere ask
         and name != "pico.model.wiring"
         and path.stem != "pytest_fixtures"  # what scripts, notebooks and bluesky ask for, nobody asks here
         for node in parsed(path)[1]

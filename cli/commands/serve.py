@@ -1,0 +1,80 @@
+"""The simulator, and the rest, 15: `pico serve`."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from pico.diagnostics import PicoError, error
+
+from ..session import Session
+from ..views import serving as view
+
+Folder = Annotated[
+    Path | None, typer.Option("--folder", metavar="DIR", help="Where its books are; of this user without it.")
+]
+Host = Annotated[str, typer.Option("--host", metavar="ADDRESS", help="Where to listen; beyond this machine with TLS.")]
+Port = Annotated[int, typer.Option("--port", metavar="N", min=0, max=65535, help="At which port, 0 for a free one.")]
+Certificate = Annotated[Path | None, typer.Option("--certificate", metavar="FILE", help="For TLS, in PEM form.")]
+Key = Annotated[Path | None, typer.Option("--key", metavar="FILE", help="Of the certificate, in PEM form.")]
+Names = Annotated[
+    list[str] | None,
+    typer.Option("--name", metavar="HOST", help="A name that it answers to, besides localhost; may be given again."),
+]
+
+
+def serve(
+    context: typer.Context, folder: Folder = None, host: Host = "127.0.0.1", port: Port = 7426,
+    certificate: Certificate = None, key: Key = None, name: Names = None,
+) -> None:  # fmt: skip
+    """Serve benches to people elsewhere, until Ctrl-C or SIGTERM: the coordinator of a laboratory.
+
+    It keeps who has which bench, who may, and what was done; edges connect to it (`pico edge enrol`), and clients
+    (`pico remote add`). The first time it prints a code to log in with as admin. Beyond this machine it listens with
+    TLS alone. Exit code 5: something else listens there.
+
+    Examples:
+      pico serve
+      pico serve --host 0.0.0.0 --name lab.org --certificate lab.pem --key lab.key
+    """
+    if missing := [module for module in ("fastapi", "uvicorn", "sqlalchemy", "websockets") if not find_spec(module)]:
+        text = f"serving needs {', '.join(missing)}"
+        raise PicoError(error("missing-extra", text, hint="pip install 'pico-lab[server]'"))
+    session = Session.of(context)
+    place = session.folder / folder if folder else _own()
+    asyncio.run(_serve(session, place, (host, port), (certificate, key), frozenset(name or ())))
+
+
+def _own() -> Path:
+    state = os.environ.get("XDG_STATE_HOME")
+    return (Path(state) if state else Path.home() / ".local/state") / "pico/coordinator"
+
+
+async def _serve(
+    session: Session, folder: Path, at: tuple[str, int], tls: tuple[Path | None, Path | None], names: frozenset[str]
+) -> None:
+    from pico.server.app import create_app
+    from pico.server.guard.addresses import LOOPBACK, is_loopback
+    from pico.server.running import listening, server
+    from pico.server.store.books import books_in
+    from pico.server.store.first import first_code
+
+    secure = tls[0] is not None
+    with listening(*at, tls=secure) as listener:
+        books = books_in(folder)
+        try:
+            known = LOOPBACK | names | (frozenset() if is_loopback(at[0]) else {at[0]})
+            serving = server(create_app(books, known), *tls)
+            port = listener.getsockname()[1]
+            shown = min(names) if names and secure else "localhost" if is_loopback(at[0]) else at[0]
+            url = f"{'https' if secure else 'http'}://{f'[{shown}]' if ':' in shown else shown}:{port}"
+            session.show(view, url, folder, first_code(books.people))
+            await serving.serve(sockets=[listener])
+        finally:
+            books.close()
+    session.say("The coordinator has ended; runs go on at their edges.")

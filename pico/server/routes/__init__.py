@@ -1,0 +1,1 @@
+"""What the coordinator answers, a file a subject."""

@@ -1,0 +1,119 @@
+"""Who is let in: before a body is read, each route and each socket asks for a token and a role.
+
+A route says its role as `x-pico-role` in what OpenAPI tells of it (`public` asks for nothing), and none can be made
+without.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from fastapi import APIRouter, FastAPI, Request, Response, WebSocket
+from fastapi.routing import APIRoute
+from starlette.requests import HTTPConnection
+from starlette.responses import JSONResponse
+
+from pico.diagnostics import PicoError, error
+from pico.server.access.principal import Principal, unauthenticated
+from pico.server.access.secret import bearer
+from pico.server.guard.rates import Rate
+from pico.server.guard.saying import failure, status_of
+from pico.server.store.books import Books
+
+ROLE = "x-pico-role"
+FRESH = 1.0
+"""How long a socket goes by what a token let it do, before it asks again [s]."""
+
+
+class Guarded(APIRoute):
+    """A route that lets nobody in without its role, in the lab that its path names, else in all."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        """Return what answers a request."""
+        role = (self.openapi_extra or {})[ROLE]
+        answer = super().get_route_handler()
+
+        async def admitted(request: Request) -> Response:
+            try:
+                if role != "public":
+                    principal = await authenticated(request)
+                    principal.require(role, request.path_params.get("lab", "*"))
+                    request.state.principal = principal
+                return await answer(request)
+            except PicoError as exc:
+                return refusal(exc)
+
+        return admitted
+
+
+def routed() -> APIRouter:
+    """Return a router whose routes are all guarded."""
+    return APIRouter(prefix="/api", route_class=Guarded)
+
+
+def needs(role: str) -> dict[str, Any]:
+    """Return what a route is made with that asks for a role: `known` for any token, `any` for any role in its lab."""
+    return {"openapi_extra": {ROLE: role} | ({} if role == "public" else {"security": [{"bearer": []}]})}
+
+
+def refusal(exc: PicoError) -> Response:
+    """Return the answer that says what went wrong."""
+    status = status_of(exc)
+    return JSONResponse(failure(exc), status, {"www-authenticate": "Bearer"} if status == 401 else None)
+
+
+def books(app: FastAPI | Any) -> Books:
+    """Return the books of an app."""
+    found: Books = app.state.books
+    return found
+
+
+async def authenticated(connection: HTTPConnection) -> Principal:
+    """Return whose token a request carries; raises PicoError (status 401), and 429 for who asks too often."""
+    address = connection.client.host if connection.client else ""
+    failures: Rate = connection.app.state.failures
+    now = time.monotonic()
+    if failures.left(address, now) < 1:
+        raise _too_often()
+    secret = bearer(connection.headers.get("authorization"))
+    found = books(connection.app).people.known(secret) if secret else None
+    if found is None:
+        failures.taken(address, now)
+        raise unauthenticated()
+    if not connection.app.state.requests.taken(found.name, now):
+        raise _too_often()
+    return found
+
+
+def _too_often() -> PicoError:
+    return PicoError(error("limit", "too many requests at once", hint="ask again in a second, and less often"))
+
+
+class Admitted:
+    """Whom a socket let in, asked for again while it lasts: a token that is revoked ends here, too."""
+
+    def __init__(self, socket: WebSocket, principal: Principal) -> None:
+        self._socket, self._principal, self._asked = socket, principal, time.monotonic()
+
+    def principal(self) -> Principal:
+        """Return the principal, with what it may now; raises PicoError (status 401) once its token is over."""
+        if time.monotonic() - self._asked > FRESH:
+            secret = bearer(self._socket.headers.get("authorization"))
+            found = books(self._socket.app).people.known(secret)
+            if found is None:
+                raise unauthenticated()
+            self._principal, self._asked = found, time.monotonic()
+        return self._principal
+
+
+async def admit(socket: WebSocket, role: str, lab: str = "*") -> Admitted | None:
+    """Let a socket in (it is not accepted yet), or answer why not and return None."""
+    try:
+        principal = await authenticated(socket)
+        principal.require(role, lab)
+        return Admitted(socket, principal)
+    except PicoError as exc:
+        await socket.send_denial_response(refusal(exc))
+        return None

@@ -1,0 +1,47 @@
+"""A coordinator that listens, until it is told to end."""
+
+from __future__ import annotations
+
+import socket
+from pathlib import Path
+from typing import Any
+
+import uvicorn
+
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.server.guard.addresses import require_safe
+
+PING = 2.0
+"""How often a socket's other end is asked whether it is there, well within the time that a lease lasts [s]."""
+LONGEST = 64 << 20
+"""Bytes of a message: an edge may answer with pictures."""
+
+
+def listening(host: str, port: int, *, tls: bool = False) -> socket.socket:
+    """Return a socket that listens at an address, port 0 for a free one; raises PicoError for one that others reach
+    without TLS, and where something else listens."""
+    require_safe(host, tls=tls)
+    try:
+        family = socket.AF_INET6 if ":" in host else socket.AF_INET
+        made = socket.create_server((host, port), family=family, backlog=256)
+    except OSError as exc:
+        text = f"the coordinator can't listen at {host}, port {port}: {exc.strerror or exc}"
+        raise PicoError(error("listen", text, hint="`--port` takes another one"), ExitCode.LOCKED) from exc
+    made.set_inheritable(False)
+    return made
+
+
+def server(app: Any, certificate: Path | None = None, key: Path | None = None) -> uvicorn.Server:
+    """Return what serves an app on sockets (`server.serve(sockets=[...])`) until SIGINT or SIGTERM; raises PicoError
+    for a certificate or key that can't be used."""
+    config = uvicorn.Config(
+        app, log_level="warning", access_log=False, server_header=False, date_header=False, ws="websockets-sansio",
+        ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST, ws_per_message_deflate=False,
+        timeout_graceful_shutdown=3, ssl_certfile=certificate, ssl_keyfile=key, h11_max_incomplete_event_size=1 << 16,
+    )  # fmt: skip
+    try:
+        config.load()
+    except (OSError, ValueError) as exc:
+        text = f"the certificate {certificate} can't be used: {exc}"
+        raise PicoError(error("tls", text, hint="`--certificate` and `--key` name files in PEM form")) from exc
+    return uvicorn.Server(config)

@@ -1,0 +1,1 @@
+"""What the coordinator keeps: tables of SQLite, or of PostgreSQL where several coordinators share them."""

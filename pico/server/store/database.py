@@ -1,0 +1,72 @@
+"""The database of a coordinator: how it is opened, and the two ways to have a transaction on it.
+
+SQLite in one process; by its URL PostgreSQL, which several coordinators share. Whoever writes locks the rows first that
+it goes by: SQLite lets one write at a time (`BEGIN IMMEDIATE`), PostgreSQL locks rows (`FOR UPDATE`).
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from sqlalchemy import Connection, Engine, create_engine, event, func, select
+from sqlalchemy.engine import make_url
+
+from pico.server.store.tables import metadata
+
+Clock = Callable[[], float]
+"""Seconds since 1970."""
+
+
+class Database:
+    """The tables at a URL of SQLAlchemy; `clock` counts for SQLite alone, PostgreSQL has one for all coordinators."""
+
+    def __init__(self, url: str, clock: Clock = time.time) -> None:
+        self._clock = clock
+        self.local = make_url(url).get_backend_name() == "sqlite"
+        self._engine = _opened(url, self.local)
+        self._writer = self._engine.execution_options(pico_writes=True)
+        metadata.create_all(self._writer)
+
+    @contextmanager
+    def reading(self) -> Iterator[Connection]:
+        """Read what is there, all of it as it was at one moment."""
+        with self._engine.begin() as connection:
+            yield connection
+
+    @contextmanager
+    def writing(self) -> Iterator[Connection]:
+        """Write all or nothing: durable once the block has ended, undone where it raises."""
+        with self._writer.begin() as connection:
+            yield connection
+
+    def now(self, connection: Connection) -> float:
+        """Return the time by the clock that leases go by [s since 1970]."""
+        if self.local:
+            return self._clock()
+        return float(connection.execute(select(func.extract("epoch", func.clock_timestamp()))).scalar_one())
+
+    def close(self) -> None:
+        """Let go of the database."""
+        self._engine.dispose()
+
+
+def _opened(url: str, local: bool) -> Engine:
+    if not local:
+        return create_engine(url, isolation_level="READ COMMITTED", pool_pre_ping=True)
+    engine = create_engine(url)
+
+    @event.listens_for(engine, "connect")
+    def durable(connection: Any, _record: Any) -> None:
+        connection.isolation_level = None  # transactions begin as said below, not as the driver thinks
+        for pragma in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON", "busy_timeout = 10000"):
+            connection.execute(f"PRAGMA {pragma}")
+
+    @event.listens_for(engine, "begin")
+    def begin(connection: Connection) -> None:
+        writes = connection.get_execution_options().get("pico_writes")
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
+
+    return engine

@@ -1,0 +1,158 @@
+"""Principals, what they may, and the tokens that let them in."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from sqlalchemy import Connection, delete, insert, select, update
+
+from pico.diagnostics import PicoError, error
+from pico.server.access.principal import Principal, Right, require_name
+from pico.server.access.secret import CODE_LASTS, LONGEST, fingerprint, new_secret
+from pico.server.store.database import Database
+from pico.server.store.ordered import write_audit
+from pico.server.store.tables import principals, rights, tokens
+
+
+@dataclass(frozen=True, slots=True)
+class Issued:
+    """A token or a code that was made; `secret` is shown once, and kept nowhere."""
+
+    id: str
+    secret: str
+    expires_at: float
+
+
+class People:
+    """Who may do what."""
+
+    def __init__(self, database: Database) -> None:
+        self._database = database
+
+    def anybody(self) -> bool:
+        """Return whether there is a principal at all."""
+        with self._database.reading() as connection:
+            return connection.execute(select(principals.c.name).limit(1)).first() is not None
+
+    def listed(self) -> tuple[dict[str, Any], ...]:
+        """Return the principals with their rights."""
+        with self._database.reading() as connection:
+            rows = connection.execute(select(principals).order_by(principals.c.name)).all()
+            return tuple(
+                {"name": r.name, "disabled": r.disabled, "rights": sorted(map(str, _rights(connection, r.name)))}
+                for r in rows
+            )
+
+    def settled(self, name: str, having: Iterable[Right], *, by: str, disabled: bool = False) -> None:
+        """Make a principal, or change what it may; one that is disabled is let in no more. Raises PicoError for a name
+        that is none."""
+        require_name(name, "a principal")
+        having = frozenset(having)
+        with self._database.writing() as connection:
+            now = self._database.now(connection)
+            if (
+                connection.execute(select(principals).where(principals.c.name == name).with_for_update()).first()
+                is None
+            ):
+                connection.execute(insert(principals).values(name=name, created_at=now, disabled=disabled))
+            else:
+                connection.execute(update(principals).where(principals.c.name == name).values(disabled=disabled))
+            connection.execute(delete(rights).where(rights.c.principal == name))
+            for right in having:
+                connection.execute(insert(rights).values(principal=name, lab=right.lab, role=right.role))
+            text = "disabled" if disabled else ", ".join(sorted(map(str, having)))
+            write_audit(connection, now, "principal", by, of=name, why=text)
+
+    def issued(
+        self, name: str, lasts: float, *, by: str, kind: str = "token", label: str = "",
+        scope: Iterable[Right] | None = None,
+    ) -> Issued:  # fmt: skip
+        """Make a token (or a code) of a principal that lasts so long [s]; raises PicoError where there is no such
+        principal."""
+        with self._database.writing() as connection:
+            now = self._database.now(connection)
+            if connection.execute(select(principals).where(principals.c.name == name)).first() is None:
+                raise PicoError(error("unknown-principal", f"there is nobody called {name} here"))
+            return _issue(connection, now, name, lasts, by=by, kind=kind, label=label, scope=scope)
+
+    def exchanged(self, code: str, label: str, lasts: float) -> Issued | None:
+        """Exchange a code for a token, once; None for a code that is none, or none any more."""
+        with self._database.writing() as connection:
+            now = self._database.now(connection)
+            mine = (tokens.c.hash == fingerprint(code)) & (tokens.c.kind == "code")
+            row = connection.execute(select(tokens).where(mine).with_for_update()).first()
+            if row is None or row.ended_at is not None or row.expires_at <= now or _disabled(connection, row.principal):
+                return None
+            connection.execute(update(tokens).where(tokens.c.id == row.id).values(ended_at=now))
+            scope = None if row.scope is None else [Right(*pair) for pair in json.loads(row.scope)]
+            return _issue(connection, now, row.principal, lasts, by=row.principal, label=label, scope=scope)
+
+    def revoked(self, token: str, *, by: str, of: str | None = None) -> bool:
+        """End a token, of the principal `of` alone where one is named; return whether there was one that lasted."""
+        with self._database.writing() as connection:
+            now = self._database.now(connection)
+            mine = (tokens.c.id == token) & tokens.c.ended_at.is_(None)
+            row = connection.execute(select(tokens).where(mine).with_for_update()).first()
+            if row is None or (of is not None and row.principal != of):
+                return False
+            connection.execute(update(tokens).where(tokens.c.id == token).values(ended_at=now))
+            write_audit(connection, now, "revoke", by, of=f"{row.principal}/{token}")
+            return True
+
+    def tokens(self, of: str | None = None) -> tuple[dict[str, Any], ...]:
+        """Return the tokens that last, of one principal or of all, without what is secret in them."""
+        with self._database.reading() as connection:
+            now = self._database.now(connection)
+            asked = select(tokens).where(tokens.c.ended_at.is_(None), tokens.c.expires_at > now)
+            if of is not None:
+                asked = asked.where(tokens.c.principal == of)
+            return tuple(_shown(row) for row in connection.execute(asked.order_by(tokens.c.created_at)).mappings())
+
+    def known(self, secret: str) -> Principal | None:
+        """Return whom a token lets in; None for one that is none, or none any more."""
+        with self._database.reading() as connection:
+            now = self._database.now(connection)
+            mine = (tokens.c.hash == fingerprint(secret)) & (tokens.c.kind == "token")
+            row = connection.execute(select(tokens).where(mine)).first()
+            if row is None or row.ended_at is not None or row.expires_at <= now or _disabled(connection, row.principal):
+                return None
+            having = _rights(connection, row.principal)
+            if row.scope is not None:
+                having &= frozenset(Right(*pair) for pair in json.loads(row.scope))
+            return Principal(row.principal, having, row.id, row.expires_at)
+
+
+def _issue(
+    connection: Connection, now: float, name: str, lasts: float, *, by: str, kind: str = "token", label: str = "",
+    scope: Iterable[Right] | None = None,
+) -> Issued:  # fmt: skip
+    longest = CODE_LASTS if kind == "code" else LONGEST
+    if not 0 < lasts <= longest:
+        text = f"a {kind} lasts {longest / 86400:g} days at most"
+        raise PicoError(error("usage", text, hint="ask for a shorter time; it can be made anew"))
+    secret = new_secret(kind)
+    held = None if scope is None else json.dumps(sorted((right.lab, right.role) for right in scope))
+    made = Issued(fingerprint(secret).hex()[:12], secret, now + lasts)
+    values = {"principal": name, "kind": kind, "label": label[:200], "scope": held, "created_at": now}
+    row = {"id": made.id, "hash": fingerprint(secret), "expires_at": made.expires_at, **values}
+    connection.execute(insert(tokens).values(**row))
+    write_audit(connection, now, kind, by, of=f"{name}/{made.id}", why=label[:200])
+    return made
+
+
+def _rights(connection: Connection, name: str) -> frozenset[Right]:
+    found = connection.execute(select(rights.c.lab, rights.c.role).where(rights.c.principal == name))
+    return frozenset(Right(row.lab, row.role) for row in found)
+
+
+def _disabled(connection: Connection, name: str) -> bool:
+    return bool(connection.execute(select(principals.c.disabled).where(principals.c.name == name)).scalar())
+
+
+def _shown(row: Mapping[Any, Any]) -> dict[str, Any]:
+    scope = None if row["scope"] is None else sorted(str(Right(*pair)) for pair in json.loads(row["scope"]))
+    words = ("id", "principal", "kind", "label", "created_at", "expires_at")
+    return {word: row[word] for word in words} | {"scope": scope}
