@@ -24,7 +24,7 @@ from .errors import explain
 from .session import Session, standing
 from .terminal.output import unsaid, write
 
-EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate: `pico --help`."
+EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate, --bench LAB/BENCH: `pico --help`."
 
 
 def _version(value: bool) -> None:
@@ -46,6 +46,10 @@ def root(
     session_backend: Annotated[
         str | None,
         typer.Option("--backend", metavar="NAME", help="What executes: sim (default) or hardware.", callback=remember),
+    ] = None,
+    session_at: Annotated[
+        str | None,
+        typer.Option("--bench", metavar="LAB/BENCH", help="A bench on the network, or `local`.", callback=remember),
     ] = None,
     session_emulate: Annotated[
         bool,

@@ -22,9 +22,7 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "remote": "benches elsewhere",
     "lease": "who has a bench",
-    "login": "people at a served bench",
     "token": "programs at a served bench",
     "gui": "PICO in a browser",
 }
@@ -32,7 +30,7 @@ RESERVED = {
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices", "edge",
-    "commission", "serve",
+    "commission", "serve", "remote", "login",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

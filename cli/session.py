@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -22,6 +23,7 @@ from .views.style import inert_json
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
+    from pico.edge.network.remotes import Far
     from pico.history.lab_history import LabHistory
 
     from .standing import Standing
@@ -48,6 +50,9 @@ class Session:
     debug: bool = False
     backend: str = SIMULATOR
     lock_timeout: float = 0.0
+    at: str | None = None
+    """The bench that is meant; None: the checkout's default."""
+    said_backend: str | None = None
     told: list[Diagnostic] = field(default_factory=list, compare=False)
 
     @classmethod
@@ -59,13 +64,20 @@ class Session:
                 text = f"`--backend {given['backend']}` has no devices that could be emulated"
                 raise PicoError(error("usage", text, hint="`--backend hardware --emulate`"))
             given["backend"] = EMULATED
-        return cls(context=context, **given)
+        given.setdefault("at", os.environ.get("PICO_BENCH") or None)
+        return cls(context=context, said_backend=given.get("backend"), **given)
+
+    def far(self, root: Path) -> Far | None:
+        """Return the bench of a coordinator that is meant; None for that of the lab in `root`. Raises PicoError."""
+        from pico.edge.network.remotes import chosen
+
+        return chosen(root, self.at)
 
     def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
         """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""
         from pico.bench.bench import Bench
 
-        bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed)
+        bench = Bench.open(self.folder, backend=self.said_backend, fidelity=fidelity, speed=speed, bench=self.at)
         loaded()
         if self.context is not None:
             self.context.call_on_close(bench.close)
@@ -85,8 +97,10 @@ class Session:
         """Open the history of this session's lab, also while its manifests are wrong; raises PicoError."""
         from pico.history.lab.folder import LabFolder
         from pico.history.lab_history import LabHistory
+        from pico.manifest.load import find_lab
 
-        folder = LabFolder(self.folder, history=True)
+        root = find_lab(self.folder)
+        folder = LabFolder(root, history=True, far=self.far(root))
         loaded()
         self.tell(folder.recovered)
         return LabHistory(folder)

@@ -78,13 +78,16 @@ __all__ = [
 def open(path: str | Path = ".", **options: Any) -> Bench:
     """Open the laboratory in folder `path` (or any folder below it) and return its bench.
 
-    Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`, `speed`).
+    `pico://host/lab/bench` as `path`: that bench on the network, for the laboratory around the working directory.
+    Options are those of `pico.bench.bench.Bench.open` (`backend`, `fidelity`, `speed`, `bench`).
     Raises `PicoError` where the folder holds no laboratory or its manifests are wrong.
 
     >>> bench = pico.open("labs/shel", fidelity="kinematic")
     """
     from pico.scripting.bench import Bench
 
+    if isinstance(path, str) and path.startswith("pico://"):
+        return Bench.open(**{"bench": path, **options})
     return Bench.open(path, **options)
 
 

@@ -13,7 +13,15 @@ from ..commands import files
 if TYPE_CHECKING:
     from .declared import Declared
 
-SHARED = {"-C": "DIR", "--json": "", "--debug": "", "--backend": "sim|hardware", "--emulate": "", "--help": ""}
+SHARED = {
+    "-C": "DIR",
+    "--json": "",
+    "--debug": "",
+    "--backend": "sim|hardware",
+    "--emulate": "",
+    "--bench": "LAB/BENCH",
+    "--help": "",
+}
 _SAFE = re.compile(r"[^\s\\'\"`$&|;<>()*?!#{}\[\]\x00-\x1f\x7f-\x9f]+")
 """What a shell takes as it stands: bash puts what is offered into the command line as it is."""
 _LARGEST = 2 * 1024 * 1024

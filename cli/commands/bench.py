@@ -37,7 +37,8 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
 
     session = Session.of(context)
     root = find_lab(session.folder)
-    found = updating.proposal(root)
+    far = session.far(root)
+    found = updating.proposal(root, far)
     if not found.new or dry_run:
         session.show(view, found, adopted=False)
         return ExitCode.DONE
@@ -46,7 +47,7 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     if not session.confirm("\nAdopt it as the bench's own Lab?", auto_approve):
         session.say("Nothing adopted: the bench stays what it is.")
         return ExitCode.ERROR
-    updating.update(root, session.backend)
+    updating.update(root, session.backend, far)
     if session.json:
         session.document(view.data(found, adopted=True))
     session.say("Adopted: plans go by it from now on. `pico plan` shows what differs now.")

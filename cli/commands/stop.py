@@ -16,12 +16,16 @@ def stop(context: typer.Context, now: Now = False) -> None:
     """Stop the run that goes on, from any terminal.
 
     As Ctrl-C in its own would. Nothing more starts; a part in the hand goes to its goal or back, whichever is sooner.
+    It asks the bench to stop, needs nobody's leave, and is no emergency stop: that is the button beside the table.
 
     Examples:
       pico stop
       pico stop --now
+      pico stop --bench shel/bench1
     """
     from pico.bench.running.stopping import stop
+    from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    session.show(view, *stop(session.folder, now=now))
+    root = find_lab(session.folder)
+    session.show(view, *stop(root, now=now, far=session.far(root)))

@@ -64,7 +64,8 @@ def swap(
     own = {"focal_length": focal_length, "retardance": retardance}
     given = _pairs([*(parameter or ()), *(f"{key}={value}" for key, value in own.items() if value)])
     known = _known(given, sigma, measured, valid_for)
-    found = updating.swapped(root, name, serial, kind, given, known)
+    far = session.far(root)
+    found = updating.swapped(root, name, serial, kind, given, known, far)
     if dry_run or found.same:
         session.show(view, found, done=False)
         return ExitCode.DONE
@@ -73,7 +74,7 @@ def swap(
     if not session.confirm(f"\nTake {serial} as the specimen in {name}?", auto_approve):
         session.say("Nothing was swapped.")
         return ExitCode.ERROR
-    updating.swap(root, session.backend, found)
+    updating.swap(root, session.backend, found, far)
     if session.json:
         session.document(view.data(found, done=True))
     session.say("Swapped: `pico optimize` lists which goals are stale now. Swapping back undoes it.")

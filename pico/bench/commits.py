@@ -18,7 +18,7 @@ from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
-from pico.edge.link.opening import remembered
+from pico.edge.network.opening import remembered
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
 from pico.history.lab.contents import commit as committed
@@ -177,7 +177,7 @@ def _unaligned(folder: LabFolder, seen: Observation, state: LabState) -> Mapping
     """Return the set-points of a state that light has yet to find here, each with why."""
     if not references_of(state):
         return {}
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         return unaligned(folder.setup, memory, seen, state)
 
 
@@ -185,7 +185,7 @@ def _goals(folder: LabFolder, seen: Observation, state: LabState) -> Mapping[str
     """Return how goals stand that have light, or were sought; None where there are none."""
     if not (folder.setup.lab.goals or references_of(state)):
         return None
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         found = goals_stand(folder.setup, memory, seen, state, timed=False)
     told = [one for one in found if one.order is not None or one.status != "never measured"]
     stood = {one.goal: GoalStood(status=one.status, why=one.why, at=one.at, last=one.last) for one in told}
@@ -201,7 +201,7 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
         return
     components = contents(folder, named).components if named else None
     committed = folder.committed()
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         if committed is not None:
             missed = unaligned(folder.setup, memory, seen, folder.state)
             refuse_unapplied(folder.setup, committed, folder.state, seen, components, unaligned=missed)
@@ -259,7 +259,7 @@ def _evidence(
     documents = [data for path, data in runs.items() if path.endswith("/run.json")]
     changed = {(c.component, c.tunable) for c in changes} | changed_by(documents)
     before = _before(folder)
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         return evidence(folder.setup, memory, seen, state, changed, observed=observed, before=before)
 
 
@@ -268,7 +268,7 @@ def _hands(
 ) -> list[str] | None:
     """Return what a hand changed of that which a commit changes, by address; None where its runs changed all."""
     made = {(c.component, c.tunable): c.tolerated for c in changes}
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         found = by_hand(
             folder.setup,
             memory,

@@ -13,8 +13,11 @@ from typing import TYPE_CHECKING, Any, Self, TypeVar
 from pico.backends.devices import EMULATED, SIMULATOR, opener
 from pico.bench.running.loop import LoopThread
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.edge.network.opening import holder_of
+from pico.edge.network.remotes import chosen
 from pico.history.lab.folder import LabFolder
 from pico.history.lab_history import LabHistory
+from pico.manifest.load import find_lab
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
@@ -22,6 +25,7 @@ from pico.model.state import LabState
 
 if TYPE_CHECKING:
     from pico.backends.world import World
+    from pico.edge.network.remotes import Far
     from pico.edge.protocol import Edge
 
 T = TypeVar("T")
@@ -30,9 +34,9 @@ T = TypeVar("T")
 class Opened:
     """One bench, opened by `open`: all that its services stand on. Close it when done; it opens again by itself."""
 
-    def __init__(self, folder: LabFolder, fidelity: str | None = None, backend: str = SIMULATOR) -> None:
+    def __init__(self, folder: LabFolder, fidelity: str | None = None, backend: str | None = None) -> None:
         self.folder, self.history = folder, LabHistory(folder)
-        self.backend_name = backend
+        self.backend_name = backend or SIMULATOR
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
         self.asked = fidelity is not None
         """Whether somebody asked for this fidelity."""
@@ -49,23 +53,50 @@ class Opened:
         cls,
         path: str | Path = ".",
         *,
-        backend: str = SIMULATOR,
+        backend: str | None = None,
         fidelity: str | None = None,
         speed: float | None = None,
+        bench: str | None = None,
     ) -> Self:
-        """Open the lab that `path` lies in. Nothing is contacted yet.
+        """Open the lab that `path` lies in. Nothing is contacted yet, but for a bench on the network.
 
-        `backend`: `sim`; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the lab's own word where
-        None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
+        `backend`: `sim`, that where None; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the
+        lab's own word where None. `speed`: share of the joint limits for every robot, instead of the lab's. `bench`:
+        LAB/BENCH of a remote, or `pico://host/LAB/BENCH`, with the backend that it has; `local` for the checkout's own.
+        Raises PicoError.
         """
-        _require_backend(backend, fidelity, speed)
-        folder = LabFolder(Path(path), bench=True)
+        _require_backend(backend or SIMULATOR, fidelity, speed)
+        root = find_lab(Path(path))
+        folder = LabFolder(root, bench=True, far=chosen(root, bench))
         folder.setup = folder.setup.at_speed(speed)
-        bench = cls(folder, fidelity, backend)
-        bench.speed = speed
-        if backend != SIMULATOR:
-            _ = bench.edge  # says what is missing
-        return bench
+        opened = cls(folder, fidelity, backend)
+        opened.speed = speed
+        if folder.far is not None:
+            opened._require_far(backend)
+        elif opened.backend_name != SIMULATOR:
+            _ = opened.edge  # says what is missing
+        return opened
+
+    def _require_far(self, backend: str | None) -> None:
+        """Be what the bench of a coordinator is; raises PicoError where somebody asked for another backend."""
+        able = self.wait(self.edge.describe())
+        if backend not in (None, able.name):
+            assert self.far is not None
+            text = f"{self.far.said} is a {able.name} bench, and this is for a {backend} one"
+            raise PicoError(error("backend", text, hint="leave --backend out: the bench is what it is"))
+        self.backend_name = able.name
+        if not self.asked:
+            self.fidelity = able.fidelity
+
+    @property
+    def far(self) -> Far | None:
+        """The bench of a coordinator that this is; None for that of the folder."""
+        return self.folder.far
+
+    @property
+    def side(self) -> Path:
+        """Where this checkout keeps what is its own of the bench: logs of recipes, mornings."""
+        return self.root if self.far is None else self.far.folder
 
     @property
     def root(self) -> Path:
@@ -87,12 +118,12 @@ class Opened:
         """The edge, made when it is first needed; raises PicoError where its device can't be had, and where another
         bench of this lab is served than is asked for."""
         if self._edge is None:
-            from pico.edge.link.opening import opened, served
+            from pico.edge.network.opening import opened, served
 
-            able = served(self.root)
+            able = None if self.far is not None else served(self.root)
             if able is not None and able.name != self.backend_name:
                 raise PicoError(_another(self.setup.lab.name, able.name, self.backend_name))
-            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own)
+            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own, self.far)
             if able is not None and not self.asked:
                 self.fidelity = able.fidelity
         return self._edge
@@ -128,7 +159,7 @@ class Opened:
         from pico.edge.lease import wait_until_free
 
         self.lock_timeout = seconds
-        self.wait(wait_until_free(self.root, seconds))
+        self.wait(wait_until_free(lambda: holder_of(self.root, self.far), seconds))
 
     def close(self) -> None:
         """Let go of the edge and end its thread; one left busy by Ctrl-C is not waited for."""

@@ -17,8 +17,8 @@ from pico.bench.running.loop import LoopThread
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import write_all
 from pico.edge import own_lab
-from pico.edge.link.opening import opened
-from pico.edge.link.opening import own_lab as kept
+from pico.edge.network.opening import opened
+from pico.edge.network.opening import own_lab as kept
 from pico.edge.protocol import OwnLab
 from pico.execution.stale import edited
 from pico.model.lab import Known
@@ -27,6 +27,7 @@ from pico.model.record import record
 
 if TYPE_CHECKING:
     from pico.bench.importing import Imported
+    from pico.edge.network.remotes import Far
 
 DOING = "pico bench update"
 
@@ -66,13 +67,13 @@ class Proposal:
         return bool(self.patch)
 
 
-def proposal(root: Path) -> Proposal:
-    """Return what the working tree of the lab in `root` proposes; nothing new where its bench keeps no Lab yet. Raises
-    PicoError for what is wrong with either."""
+def proposal(root: Path, far: Far | None = None) -> Proposal:
+    """Return what the working tree of the lab in `root` proposes to its bench, or to one of a coordinator (`far`);
+    nothing new where that keeps no Lab yet. Raises PicoError for what is wrong with either."""
     tree = own_lab.proposed(root)
     wanted = own_lab.setup_of(tree)
     try:
-        own = kept(root) or tree
+        own = kept(root, far) or tree
         now = own_lab.setup_of(own)
     except PicoError as exc:
         if exc.diagnostics[0].code != own_lab.CODE:
@@ -94,18 +95,19 @@ def waiting(root: Path) -> tuple[Diagnostic, ...]:
     return ()
 
 
-def update(root: Path, backend: str) -> None:
-    """Let the bench of the lab in `root` adopt what the working tree describes; raises PicoError as `Edge.adopt`."""
+def update(root: Path, backend: str, far: Far | None = None) -> None:
+    """Let the bench of the lab in `root`, or `far`, adopt what the working tree describes; raises PicoError as
+    `Edge.adopt`."""
     tree = own_lab.proposed(root)
     try:
-        own = kept(root) or tree
+        own = kept(root, far) or tree
         setup = own_lab.setup_of(own)
     except PicoError as exc:
         if exc.diagnostics[0].code != own_lab.CODE:
             raise
         own, setup = tree, own_lab.setup_of(tree)
     thread = LoopThread()
-    edge = opened(setup, root, backend, setup.lab.sim.fidelity, own)
+    edge = opened(setup, root, backend, setup.lab.sim.fidelity, own, far)
     try:
         thread.wait(edge.adopt(tree, DOING))
     finally:
@@ -114,14 +116,15 @@ def update(root: Path, backend: str) -> None:
 
 
 def swapped(
-    root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None
+    root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None,
+    far: Far | None = None,
 ) -> Swap:  # fmt: skip
     """Return what exchanging the specimen of a part changes in the bench's own Lab and in the tree's files; nothing is
     written. Raises PicoError for what would not be right in either, or in the state beside them."""
     from pico.manifest.exchange import exchanged
 
     tree = own_lab.proposed(root)
-    own = kept(root) or tree
+    own = kept(root, far) or tree
     made = []
     for lab in (own, tree):
         files = exchanged(lab.as_bytes(), name, serial, kind, parameters, known)
@@ -151,21 +154,21 @@ def _require_state(root: Path, tree: OwnLab, name: str) -> None:
         raise PicoError([error("swap", text, hint=hint), *wrong])
 
 
-def swap(root: Path, backend: str, change: Swap) -> None:
+def swap(root: Path, backend: str, change: Swap, far: Far | None = None) -> None:
     """Write the specimen into the tree of the lab in `root`, and let its bench have it; raises PicoError, of a bench
     that does not take it with the tree as it was, and where either was changed since `change` was made.
 
     The tree is written first: killed in between, it proposes the specimen to the bench, and `pico bench update` does
     the rest. The other way round that would put the one before back."""
-    again = swapped(root, change.name, change.after, change.kind, change.parameters, change.known)
+    again = swapped(root, change.name, change.after, change.kind, change.parameters, change.known, far)
     if again != change:
         text = "lab.yaml or the bench was changed meanwhile, so nothing was swapped"
         raise PicoError(error("edit", text, hint="the same `pico swap` once more starts from what is there now"))
-    setup = own_lab.setup_of(kept(root) or own_lab.proposed(root))
+    setup = own_lab.setup_of(kept(root, far) or own_lab.proposed(root))
     before = own_lab.proposed(root).as_bytes()
     written = {path: data for path, data in change.tree.as_bytes().items() if before.get(path) != data}
     thread = LoopThread()
-    edge = opened(setup, root, backend, setup.lab.sim.fidelity, kept(root))
+    edge = opened(setup, root, backend, setup.lab.sim.fidelity, kept(root, far), far)
     try:
         write_all({root / path: data for path, data in written.items()})
         thread.wait(edge.adopt(change.own, "pico swap"))

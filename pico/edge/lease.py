@@ -189,12 +189,13 @@ class BenchLock:
         return _in_use(who)
 
 
-async def wait_until_free(root: Path, seconds: float) -> None:
-    """Wait until nobody has the lock of a lab, at most so long; raises PicoError (exit code LOCKED), naming who has."""
+async def wait_until_free(holder: Callable[[], Holder | None], seconds: float) -> None:
+    """Wait until nobody has a bench, as `holder` says, at most so long; raises PicoError (exit code LOCKED), naming who
+    has."""
     import asyncio
 
-    lock, deadline = BenchLock(root), time.monotonic() + seconds
-    while (who := lock.holder()) is not None:
+    deadline = time.monotonic() + seconds
+    while (who := await asyncio.to_thread(holder)) is not None:
         if time.monotonic() >= deadline:
             raise PicoError(_in_use(who, f"it was waited for {seconds:g} s"), ExitCode.LOCKED)
         await asyncio.sleep(RETRY)

@@ -113,11 +113,11 @@ class Recipes:
     def require_unattended(self, recipe: Recipe, arguments: Mapping[str, Any]) -> tuple[Diagnostic, ...]:
         """Return what is to be known of a recipe that begins now with nobody there; raises PicoError (exit code DENIED)
         where it must not."""
-        from pico.edge.link.opening import served
+        from pico.edge.network.opening import served
         from pico.recipes.guarding import guard_of
 
         guard_of(self.bench, recipe, arguments).require_start()
-        if served(self.bench.root):
+        if served(self.bench.root, self.bench.far):
             return ()
         text = "only this process holds it to what it states: killed, it leaves the bench as it is to the next one"
         hint = "a bench that is served outlives it: `pico edge`, in a terminal of its own"
@@ -150,7 +150,7 @@ class Recipes:
         at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
         path = str(Path(recipe.path).resolve())
         texts = {p: t.decode("utf-8", "replace") for p, t in self.texts.items()}
-        return Log.begin(self.bench.root, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
+        return Log.begin(self.bench.side, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
 
     def cut_short(self) -> tuple[About, ...]:
         """Return the runs of recipes that have no end, the latest first; a log that can't be read is left out."""
@@ -175,7 +175,7 @@ class Recipes:
         """Yield the logs of this bench, the latest first; one that can't be read is kept in `broken`, and one that a
         kill left before its first line is of a run that did nothing."""
         self.broken = []
-        for path in logs(self.bench.root)[:most]:
+        for path in logs(self.bench.side)[:most]:
             try:
                 yield Log.read(path)
             except PicoError as exc:

@@ -30,12 +30,12 @@ def test_waiting_ends_with_who_has_it(tmp_path: Path, seconds: float) -> None:
     with first.held("pico apply e1"):
         for waiting in (
             second.acquire_within("two", seconds, lambda: False),
-            wait_until_free(tmp_path, seconds),
+            wait_until_free(BenchLock(tmp_path).holder, seconds),
         ):
             with pytest.raises(PicoError, match="pico apply e1") as caught:
                 asyncio.run(waiting)
             assert caught.value.exit_code == ExitCode.LOCKED
-    asyncio.run(wait_until_free(tmp_path, 0.0))
+    asyncio.run(wait_until_free(BenchLock(tmp_path).holder, 0.0))
 
 
 def test_waiting_can_be_given_up(tmp_path: Path) -> None:

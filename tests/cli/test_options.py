@@ -297,7 +297,7 @@ def test_an_unknown_command_of_a_group_is_looked_for_in_the_group(pico: Pico) ->
 
 @pytest.mark.parametrize(("typed", "meant"), [
     ("aply", "apply"), ("stauts", "status"), ("plna", "plan"), ("undoo", "undo"), ("mvoe", "move"), ("resum", "resume"),
-    ("restore", ""), ("remove", ""), ("reset", ""), ("sync", ""),
+    ("restore", ""), ("remove", "remote"), ("reset", ""), ("sync", ""),
 ])  # fmt: skip
 def test_a_command_is_offered_for_a_slip_of_the_fingers_and_not_for_another_word(
     typed: str, meant: str, pico: Pico, shel: Path

@@ -1,4 +1,4 @@
-"""What every edge does, in this process and behind a Unix socket in another one."""
+"""What every edge does: in this process, behind a Unix socket in another one, and on the network."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 import pytest
 from benches import plan_to, shel, sim
+from relaying import TOKEN, point, relayed
 from serving import served
 
 from pico.bench.bench import Bench
@@ -25,8 +26,8 @@ from pico.bench.running.execution import Execution
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.link import place
 from pico.edge.link.client import RemoteEdge
-from pico.edge.link.opening import opened
 from pico.edge.local import LocalEdge
+from pico.edge.network.opening import opened
 from pico.edge.protocol import Edge, Job
 from pico.history.examples.example import example_names, make_example
 from pico.model.observation import live_state
@@ -50,17 +51,30 @@ def lab(example: Path, tmp_path: Path) -> Path:
     return tmp_path / "shel"
 
 
-@pytest.fixture(params=["in this process", "behind a socket"])
-def kept(request: pytest.FixtureRequest, lab: Path) -> Iterator[type]:
+@pytest.fixture
+def client(lab: Path, tmp_path: Path) -> Path:
+    """Another checkout of the lab, with a bench of its own that nobody means."""
+    return Path(shutil.copytree(lab, tmp_path / "client" / "shel"))
+
+
+@pytest.fixture(params=["in this process", "behind a socket", "on the network"])
+def kept(request: pytest.FixtureRequest, lab: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[type]:
     """Serve the lab, or not; gives the kind of edge that a client then has."""
+    monkeypatch.setenv("PICO_TOKEN", TOKEN)
+    if request.param == "on the network":
+        with relayed(lab) as url:
+            point(request.getfixturevalue("client"), url)
+            yield RemoteEdge
+        return
     behind = request.param == "behind a socket"
     with served(lab) if behind else nullcontext():
         yield RemoteEdge if behind else LocalEdge
 
 
 @pytest.fixture
-def bench(lab: Path, kept: type) -> Iterator[Bench]:
-    with Bench.open(lab) as opened_bench:
+def bench(lab: Path, kept: type, request: pytest.FixtureRequest) -> Iterator[Bench]:
+    where = request.getfixturevalue("client") if "on the network" in request.node.name else lab
+    with Bench.open(where) as opened_bench:
         assert type(opened_bench.edge) is kept
         yield opened_bench
 
@@ -282,11 +296,11 @@ def test_its_runs_are_committed_with_their_evidence(bench: Bench) -> None:
 
 
 def test_what_stands_in_the_midst_of_a_run_is_not_captured_and_it_is_said_who_runs_what(
-    bench: Bench, kept: type
+    bench: Bench, kept: type, lab: Path
 ) -> None:
     run = bench.apply("e1").run
     lease = on_edge(bench, lambda edge: edge.acquire("pico apply"))
-    (bench.root / ".pico" / "run").write_text(run)  # as if it were not over
+    (lab / ".pico" / "run").write_text(run)  # as if it were not over
     server = "the server of this bench, " if kept is RemoteEdge else ""
     for take in (bench.commit, bench.capture, bench.commits.draft):
         with pytest.raises(
@@ -423,9 +437,9 @@ def test_nonsense_is_answered_and_does_no_harm(lab: Path) -> None:
 def test_a_lease_ends_with_the_client_that_took_it(lab: Path) -> None:
     code = (
         "import asyncio, os, sys; from pathlib import Path; from pico.edge.link import place;"
-        "from pico.edge.link.client import RemoteEdge\n"
+        "from pico.edge.link.client import RemoteEdge; from pico.edge.link.line import SocketLine\n"
         "async def go():\n"
-        " await RemoteEdge(place.find(Path(sys.argv[1]))).acquire('somebody'); os.kill(os.getpid(), 9)\n"
+        " await RemoteEdge(SocketLine(place.find(Path(sys.argv[1])))).acquire('somebody'); os.kill(os.getpid(), 9)\n"
         "asyncio.run(go())"
     )
     with served(lab), Bench.open(lab) as bench:

@@ -16,8 +16,9 @@ from serving import served
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import started
-from pico.edge.link import client, place
+from pico.edge.link import line, place
 from pico.edge.link.client import RemoteEdge
+from pico.edge.link.line import SocketLine
 from pico.edge.link.server import edge_of
 from pico.edge.protocol import Asking, Edge, Job
 from pico.edge.stopping import ask_to_stop
@@ -37,7 +38,7 @@ def on_edge(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Acting]:
 
     async def go(act: Callable[[Edge], Awaitable[Any]]) -> Any:
         path = place.find(root)
-        edge: Edge = RemoteEdge(path) if path else edge_of(root, "sim", "kinematic")
+        edge: Edge = RemoteEdge(SocketLine(path)) if path else edge_of(root, "sim", "kinematic")
         try:
             return await asyncio.wait_for(act(edge), 60)
         finally:
@@ -126,7 +127,7 @@ def test_who_follows_a_run_hears_what_became_of_it_where_the_server_is_told_to_e
     async def act(server: int) -> tuple[list[Event], RunReport]:
         path = place.find(root)
         assert path is not None
-        edge, events = RemoteEdge(path), []
+        edge, events = RemoteEdge(SocketLine(path)), []
         await edge.start(Job(plan=plan, holder="test"), "r1")
         async for event in edge.events("r1"):
             events.append(event)
@@ -144,7 +145,7 @@ def test_who_follows_a_run_hears_what_became_of_it_where_the_server_is_told_to_e
 def test_an_edge_that_stands_still_is_not_waited_for_without_end(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(client, "ANSWER", 0.2)
+    monkeypatch.setattr(line, "ANSWER", 0.2)
     root = make_example("shel", tmp_path / "shel").root
     with served(root) as server, Bench.open(root) as bench:
         assert bench.observe()

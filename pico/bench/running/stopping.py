@@ -6,33 +6,37 @@ import time
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
-from pico.edge.lease import BenchLock
-from pico.edge.link.opening import remembered
+from pico.edge.network.opening import holder_of, line_of, remembered
+from pico.edge.network.remotes import Far
 from pico.edge.protocol import Holder
 from pico.edge.stopping import ask_to_stop
-from pico.manifest.load import find_lab
 from pico.runs.journal import RunRecord
 
 PATIENCE = 60.0
 """Seconds that are waited for the run to end."""
 
 
-def stop(folder: Path, *, now: bool = False) -> tuple[Holder | None, RunRecord | None]:
-    """Stop what moves the bench of the lab around `folder`, and wait for its end; `now`: in mid-motion.
+def stop(root: Path, *, now: bool = False, far: Far | None = None) -> tuple[Holder | None, RunRecord | None]:
+    """Stop what moves the bench of the lab in `root`, or `far`, and wait for its end; `now`: in mid-motion.
 
     Returns who was stopped (None where nobody has the bench), and the last run. Raises PicoError where it does not end.
     """
-    root = find_lab(folder)
-    lock = BenchLock(root)
-    holder = lock.holder()
+    holder = holder_of(root, far)
     if holder is None:
         return None, None
-    ask_to_stop(root, holder.token, "now" if now else "safely")
+    _ask(root, far, holder, now)
     until = time.monotonic() + PATIENCE
-    while (still := lock.holder()) is not None and still.token == holder.token:
+    while (still := holder_of(root, far)) is not None and still.token == holder.token:
         if time.monotonic() > until:
-            text = f"process {holder.pid} was asked to stop and has not ended in {PATIENCE:.0f} s"
+            text = f"{holder.who} was asked to stop and has not ended in {PATIENCE:.0f} s"
             raise PicoError(error("stop", text, hint="`pico stop --now`; else the emergency stop of the arm"))
-        time.sleep(0.02)
-    with remembered(root) as memory:
+        time.sleep(0.02 if far is None else 0.2)
+    with remembered(root, far) as memory:
         return holder, memory.last() if memory else None
+
+
+def _ask(root: Path, far: Far | None, holder: Holder, now: bool) -> None:
+    if far is None:
+        ask_to_stop(root, holder.token, "now" if now else "safely")
+    elif (line := line_of(root, far)) is not None:
+        line.call("stop" if now else "halt")

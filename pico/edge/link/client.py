@@ -1,18 +1,15 @@
-"""An edge at the far end of a Unix socket."""
+"""An edge at the far end of a line: a Unix socket of this machine, or a coordinator on the network."""
 
 from __future__ import annotations
 
 import asyncio
-import socket
-from collections.abc import AsyncIterator, Collection, Iterator, Mapping, Sequence
-from pathlib import Path
+from collections.abc import AsyncIterator, Callable, Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from pico.attachment import require_attached
 from pico.backends.device import Capabilities
-from pico.diagnostics import PicoError, error
 from pico.edge.armings import Kept
 from pico.edge.link import wire
+from pico.edge.link.line import Line
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.arming import Arming
 from pico.model.measurement import Measurement
@@ -34,51 +31,6 @@ if TYPE_CHECKING:
     from pico.twin.snapshot import Snapshot
     from pico.vision.arm import ArmOffsets
     from pico.vision.camera import CameraModel
-
-
-def _gone(exc: Exception) -> PicoError:
-    hint = "its run goes on by itself, if it lives; `pico status` shows what it did"
-    return PicoError(error("link", f"the edge does not answer: {str(exc) or 'nothing came in time'}", hint=hint))
-
-
-def _value(name: str, data: bytes) -> Any:
-    if not data:
-        raise _gone(EOFError("it ended the connection"))
-    return wire.read_answer(name, data)[1]
-
-
-ANSWER = 60.0
-"""Seconds in which an edge answers what it does not have to move for."""
-LASTING = frozenset({"execute", "start", "report", "finish", "cancel", "halt", "stop", "adopt", "leave"})
-"""Calls that last as long as something moves, or waits for the bench."""
-
-
-class Line:
-    """Blocking calls, a connection each, of the worktree of the lab in `root`, if that is told."""
-
-    def __init__(self, path: Path, root: Path | None = None) -> None:
-        self._path, self._root = path, root
-
-    def written(self, name: str, *arguments: Any) -> bytes:
-        """Return a call as it goes over the link; raises PicoError (exit code LOCKED) where it takes a bench that is
-        attached to another worktree."""
-        if self._root is not None and name in wire.TAKES:
-            require_attached(self._root)
-        return wire.call(name, arguments)
-
-    def call(self, name: str, *arguments: Any) -> Any:
-        """Return what a call gives; raises PicoError as the edge does, and where it does not answer."""
-        asked = self.written(name, *arguments)
-        try:
-            with socket.socket(socket.AF_UNIX) as link:
-                link.settimeout(ANSWER)
-                link.connect(str(self._path))
-                link.sendall(asked)
-                with link.makefile("rb") as answer:
-                    data = answer.readline()
-        except OSError as exc:
-            raise _gone(exc) from exc
-        return _value(name, data)
 
 
 class RemoteMemory:
@@ -198,31 +150,15 @@ class RemoteWorld:
 
 
 class RemoteEdge:
-    """The edge whose socket is at `path`, for the worktree of the lab in `root`; see `pico.edge.protocol.Edge`. Its
-    runs go on without this process."""
+    """The edge at the far end of a line; see `pico.edge.protocol.Edge`. Its runs go on without this process."""
 
-    def __init__(self, path: Path, root: Path | None = None) -> None:
-        self._path, self._line = path, Line(path, root)
-        self._held: dict[int, asyncio.StreamWriter] = {}
-        self._kept: dict[str, asyncio.StreamWriter] = {}
-
-    async def _connect(self) -> tuple[asyncio.StreamReader, asyncio.StreamWriter]:
-        try:
-            return await asyncio.open_unix_connection(str(self._path), limit=wire.LONGEST)
-        except OSError as exc:
-            raise _gone(exc) from exc
+    def __init__(self, line: Line) -> None:
+        self._line = line
+        self._held: dict[int, Callable[[], None]] = {}
+        self._kept: dict[str, Callable[[], None]] = {}
 
     async def _call(self, name: str, *arguments: Any) -> Any:
-        asked = self._line.written(name, *arguments)
-        reader, writer = await self._connect()
-        try:
-            writer.write(asked)
-            async with asyncio.timeout(None if name in LASTING else ANSWER):
-                return _value(name, await reader.readline())
-        except OSError as exc:  # a timeout is one
-            raise _gone(exc) from exc
-        finally:
-            writer.close()
+        return await self._line.answer(name, *arguments)
 
     async def describe(self) -> Capabilities:
         """Return what the device can do."""
@@ -265,7 +201,7 @@ class RemoteEdge:
 
     async def hold(self, terms: Terms) -> Left | None:
         """Hold an unattended run to its terms; it is ended there where this process dies."""
-        left, self._kept[terms.recipe] = await self._kept_open("hold", terms)
+        left, self._kept[terms.recipe] = await self._line.kept("hold", terms)
         found: Left | None = left
         return found
 
@@ -276,8 +212,8 @@ class RemoteEdge:
     async def leave(self, recipe: str, moves: bool) -> Left:
         """Bring about the end state of an unattended run."""
         found: Left = await self._call("leave", recipe, moves)
-        if (writer := self._kept.pop(recipe, None)) is not None:
-            writer.close()
+        if (let_go := self._kept.pop(recipe, None)) is not None:
+            let_go()
         return found
 
     async def unattended(self) -> Terms | None:
@@ -312,27 +248,16 @@ class RemoteEdge:
         return await self._lease("acquire", holder, wait)
 
     async def _lease(self, name: str, *arguments: Any) -> Lease:
-        lease, writer = await self._kept_open(name, *arguments)
-        self._held[lease.token] = writer
+        lease, let_go = await self._line.kept(name, *arguments)
+        self._held[lease.token] = let_go
         found: Lease = lease
         return found
 
-    async def _kept_open(self, name: str, *arguments: Any) -> tuple[Any, asyncio.StreamWriter]:
-        """Return what a call gives, with its connection, whose end says that this process is gone."""
-        asked = self._line.written(name, *arguments)
-        reader, writer = await self._connect()
-        try:
-            writer.write(asked)
-            return _value(name, await reader.readline()), writer
-        except BaseException:
-            writer.close()
-            raise
-
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
-        writer = self._held.pop(lease.token, None)
-        if writer is not None:
-            writer.close()
+        let_go = self._held.pop(lease.token, None)
+        if let_go is not None:
+            let_go()
             while (who := await self.holder()) is not None and who.token == lease.token:
                 await asyncio.sleep(0.005)
 
@@ -357,17 +282,8 @@ class RemoteEdge:
 
     async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
         """Yield what happened in a run after its event `since`, and what happens."""
-        reader, writer = await self._connect()
-        try:
-            writer.write(wire.call("events", (run, since)))
-            while data := await reader.readline():
-                kind, event = wire.read_answer("events", data)
-                if kind == "value":
-                    return
-                yield event
-            raise _gone(EOFError("it ended the connection"))
-        finally:
-            writer.close()
+        async for event in self._line.answers("events", run, since):
+            yield event
 
     async def report(self, run: str) -> RunReport:
         """Wait for the end of a run, and return what became of it."""
@@ -413,7 +329,8 @@ class RemoteEdge:
 
     async def close(self) -> None:
         """Give back what was taken; the edge itself goes on."""
-        for writer in (*self._held.values(), *self._kept.values()):
-            writer.close()
+        for let_go in (*self._held.values(), *self._kept.values()):
+            let_go()
         self._held.clear()
         self._kept.clear()
+        self._line.close()

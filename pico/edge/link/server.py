@@ -14,6 +14,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from pico.content.store import store_of
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -145,9 +146,8 @@ class Server:
         return document
 
     def _array(self, name: str) -> str:
-        if name not in self._arrays:
-            raise PicoError(error("link", f"there is no array {name[:16]} here any more", hint="look again"))
-        return packed(self._arrays[name])
+        """Return a picture of the last look, or what a run kept that a commit has no room for."""
+        return packed(self._arrays[name] if name in self._arrays else store_of(self._edge.root).get(name))
 
     def _remembered(self, method: str, arguments: list[Any]) -> Any:
         memory = self._edge.memory

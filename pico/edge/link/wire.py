@@ -130,20 +130,32 @@ def read_call(data: bytes) -> tuple[str, list[Any]]:
 
 
 def read_answer(name: str, data: bytes) -> tuple[str, Any]:
-    """Return what a line is that answers a call (`value`, or `next` of a stream), and that; raises PicoError for what
-    went wrong at the other end, and for what is no answer."""
+    """Return what a line is that answers a call, as `read_document` does."""
     try:
         document = json.loads(data)
+    except (ValueError, RecursionError) as exc:
+        raise _senseless(name, exc) from exc
+    return read_document(name, document)
+
+
+def read_document(name: str, document: Any) -> tuple[str, Any]:
+    """Return what a document is that answers a call (`value`, or `next` of a stream), and that; raises PicoError for
+    what went wrong at the other end, and for what is no answer."""
+    try:
         failed = _raised(document) if "error" in document else None
         kind = "next" if "next" in document else "value"
         if failed is None:
             over = name in STREAMS and kind == "value"
             return kind, document[kind] if over else adapter(CALLS[name][1]).validate_python(document[kind])
     except (ValueError, KeyError, TypeError, RecursionError) as exc:
-        text = f"the edge answered {name} with something else: {str(exc)[:200]}"
-        hint = "it broke off, or client and edge are of different versions of PICO"
-        raise PicoError(error("link", text, hint=hint)) from exc
+        raise _senseless(name, exc) from exc
     raise failed
+
+
+def _senseless(name: str, exc: Exception) -> PicoError:
+    text = f"the edge answered {name} with something else: {str(exc)[:200]}"
+    hint = "it broke off, or client and edge are of different versions of PICO"
+    return PicoError(error("link", text, hint=hint))
 
 
 def failure(exc: PicoError) -> dict[str, Any]:

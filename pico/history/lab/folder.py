@@ -31,6 +31,7 @@ from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 
 if TYPE_CHECKING:
+    from pico.edge.network.remotes import Far
     from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
     from pico.model.trace.expectation import Standing
@@ -72,13 +73,16 @@ class LabFolder:
     those of HEAD, and `wrong` says what is wrong.
 
     With `bench`, its `setup` is what the bench keeps as its own Lab (`own`), whatever the working tree says, which only
-    proposes another one; where it keeps none yet, what the working tree says now. Else `own` is None.
+    proposes another one; where it keeps none yet, what the working tree says now. Else `own` is None. `far`: the
+    bench of a coordinator, instead of the folder's own.
     """
 
-    def __init__(self, path: Path, *, history: bool = False, bench: bool = False) -> None:
-        self.root = find_lab(path)
+    def __init__(
+        self, path: Path, *, history: bool = False, bench: bool = False, far: Far | None = None
+    ) -> None:  # fmt: skip
+        self.root, self.far = find_lab(path), far
         own_folder(self.root)
-        self.own = _kept(self.root) if bench else None
+        self.own = _kept(self.root, far) if bench else None
         self._keeps = bench
         self._benches: dict[BenchFiles, Setup | None] = {}
         self._files: dict[str, bytes] = {}
@@ -367,10 +371,10 @@ class LabFolder:
         return self.notes(part)[-1]
 
 
-def _kept(root: Path) -> OwnLab | None:
-    from pico.edge.link.opening import own_lab
+def _kept(root: Path, far: Far | None) -> OwnLab | None:
+    from pico.edge.network.opening import own_lab
 
-    return own_lab(root)
+    return own_lab(root, far)
 
 
 def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:

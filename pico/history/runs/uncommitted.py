@@ -13,8 +13,7 @@ from pathlib import Path
 
 from pico.attachment import bench_folder, own_folder
 from pico.diagnostics import Diagnostic, PicoError
-from pico.edge.lease import BenchLock
-from pico.edge.link.opening import remembered
+from pico.edge.network.opening import holder_of, remembered
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
@@ -44,6 +43,13 @@ def pending(
     tree goes.
     """
     runs = unrecorded(folder)
+    if folder.far is not None:
+        from pico.edge.network.arrays import bring
+        from pico.edge.network.line import line_to
+
+        bring(
+            folder.far, line_to(folder.far), [one.sha256 for run in runs for one in run.document.artifacts if one.shape]
+        )
     here = [i for i, run in enumerate(runs) if seen and is_awaited(run.document) and _of(run.document, seen)]
     if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
         runs[here[-1]] = _committed(folder, runs[here[-1]], seen, state or folder.state, goals)
@@ -86,13 +92,13 @@ def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -
 
 
 def _unrecorded(folder: LabFolder) -> list[RecordedRun]:
-    if bench_folder(folder.root).resolve() != own_folder(folder.root).resolve():
+    if folder.far is None and bench_folder(folder.root).resolve() != own_folder(folder.root).resolve():
         return []  # they are carried by what is committed in the worktree that has the bench
-    with remembered(folder.root) as memory:
+    with remembered(folder.root, folder.far) as memory:
         if memory is None:
             return []
         moving = memory.moving()
-        over = [run for run in memory.runs() if run.run in moving and not _goes_on(folder.root, run)]
+        over = [run for run in _own(folder, memory.runs()) if run.run in moving and not _goes_on(folder, run)]
         carried = _carried(folder, over)
         fresh = ((run, part) for run in over if (part := carried.get(run.run, -1) + 1) <= run.resumed)
         found = (recorded(folder.setup, memory, run, part) for run, part in fresh)
@@ -151,8 +157,18 @@ def _keep(folder: LabFolder) -> Keep | None:
     return store_in(folder.repository.common).put if folder.repository else None
 
 
-def _goes_on(root: Path, run: RunRecord) -> bool:
-    return run.finished_at is None and BenchLock(root).holder() is not None
+def _own(folder: LabFolder, runs: Iterable[RunRecord]) -> Iterable[RunRecord]:
+    """Return the runs that this checkout is to carry: on a bench that it shares with others those that it began."""
+    if folder.far is None:
+        return runs
+    from pico.edge.network.session import runs_begun
+
+    begun = frozenset(runs_begun(folder.far.folder))
+    return [run for run in runs if run.run in begun]
+
+
+def _goes_on(folder: LabFolder, run: RunRecord) -> bool:
+    return run.finished_at is None and holder_of(folder.root, folder.far) is not None
 
 
 def _seconds(moment: str) -> float:

@@ -1,0 +1,55 @@
+"""What a user is known by to coordinators: a token each, in a file that only that user may read.
+
+`PICO_TOKEN` comes before it, for what runs by itself. No token lies in a checkout: a commit could carry it.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+from pico.diagnostics import PicoError, error
+from pico.disk import write_whole
+
+VARIABLE = "PICO_TOKEN"
+
+
+def token_of(url: str) -> str | None:
+    """Return the token for the coordinator at `url`, None where there is none; raises PicoError where the file can't be
+    read, or others may read it."""
+    return os.environ.get(VARIABLE) or _read().get(url.rstrip("/"))
+
+
+def keep_token(url: str, token: str) -> None:
+    """Keep a token for the coordinator at `url`, for this user alone; raises PicoError."""
+    _write({**_read(), url.rstrip("/"): token})
+
+
+def tokens_file() -> Path:
+    """Return where the tokens of this user are."""
+    base = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
+    return Path(base) / "pico" / "tokens.json"
+
+
+def _read() -> dict[str, str]:
+    path = tokens_file()
+    try:
+        if path.stat().st_mode & 0o077:
+            raise PicoError(error("token", f"others may read {path}", hint=f"`chmod 600 {path}`, and get new tokens"))
+        return {str(url): str(token) for url, token in json.loads(path.read_bytes()).items()}
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, AttributeError) as exc:
+        raise PicoError(
+            error("token", f"{path} can't be read: {exc}", hint="delete it, then `pico login URL`")
+        ) from exc
+
+
+def _write(tokens: dict[str, str]) -> None:
+    path, mask = tokens_file(), os.umask(0o077)
+    try:
+        write_whole(path, (json.dumps(tokens, indent=1) + "\n").encode(), folders=True)
+        path.chmod(0o600)
+    finally:
+        os.umask(mask)

@@ -1,0 +1,106 @@
+"""Coordinators by name, benches of theirs, and tokens: what a checkout and its user keep, and what is no name."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import stat
+from pathlib import Path
+
+import pytest
+from relaying import TOKEN, point, relayed
+
+from pico.bench.bench import Bench
+from pico.diagnostics import ExitCode, PicoError
+from pico.edge.network.remotes import Remote, Remotes, added, address, chosen, keep, known, removed
+from pico.edge.network.tokens import keep_token, token_of, tokens_file
+from pico.history.examples.example import make_example
+
+LAB = Remote("https://lab.example")
+
+
+@pytest.fixture(autouse=True)
+def own_configuration(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    monkeypatch.delenv("PICO_TOKEN", raising=False)
+
+
+@pytest.fixture
+def lab(tmp_path: Path) -> Path:
+    return make_example("minimal", tmp_path / "lab").root
+
+
+def test_remotes_are_kept_beside_the_history_and_no_commit_can_bring_one(lab: Path) -> None:
+    keep(lab, added(known(lab), "lab", LAB))
+    assert known(lab).named == {"lab": LAB}
+    assert [p for p in lab.rglob("remotes.json") if ".git" not in p.parts] == []
+    (lab / ".pico").mkdir(exist_ok=True)
+    (lab / ".pico" / "remotes.json").write_text('{"remotes": {"evil": {"url": "http://evil"}}, "default": "evil/a/b"}')
+    assert set(known(lab).named) == {"lab"} and chosen(lab) is None
+
+
+def test_a_bench_is_meant_by_word_by_default_or_by_address(lab: Path) -> None:
+    keep(lab, Remotes({"lab": LAB}, "lab/shel/bench1"))
+    found = chosen(lab)
+    assert found is not None and (found.remote, found.name) == (LAB, "shel/bench1")
+    assert chosen(lab, "shel/bench1") == chosen(lab, "lab/shel/bench1") == chosen(lab, "pico://lab.example/shel/bench1")
+    assert chosen(lab, "local") is None
+    near = chosen(lab, "pico://127.0.0.1:8700/shel/bench1")
+    assert near is not None and near.remote.url == "http://127.0.0.1:8700" and near.folder != found.folder
+    keep(lab, added(known(lab), "other", Remote("http://127.0.0.1:1")))
+    with pytest.raises(PicoError, match="of which coordinator") as caught:
+        chosen(lab, "shel/bench1")
+    assert caught.value.diagnostics[0].hint == "`lab/shel/bench1`, `other/shel/bench1`"
+    keep(lab, removed(known(lab), "lab"))
+    assert known(lab).default == "" and chosen(lab) is None
+
+
+@pytest.mark.parametrize("word", ["bench1", "a/b/c/d", "../x/y", "nosuch/shel/bench1", "pico://lab.example/bench1"])
+def test_what_names_no_bench_is_said(lab: Path, word: str) -> None:
+    keep(lab, Remotes({"lab": LAB}))
+    with pytest.raises(PicoError) as caught:
+        chosen(lab, word)
+    assert caught.value.diagnostics[0].hint
+
+
+@pytest.mark.parametrize(
+    "url", ["lab.example", "ftp://lab.example", "https://", "https://lab.example/x", "https://a@b"]
+)
+def test_what_is_no_address_is_said(url: str) -> None:
+    with pytest.raises(PicoError, match="is no address of a coordinator"):
+        address(url)
+
+
+def test_a_token_is_kept_for_one_user_and_one_coordinator(monkeypatch: pytest.MonkeyPatch) -> None:
+    keep_token("https://lab.example/", "secret")
+    assert (token_of("https://lab.example"), token_of("https://evil.example")) == ("secret", None)
+    assert stat.S_IMODE(tokens_file().stat().st_mode) == 0o600
+    monkeypatch.setenv("PICO_TOKEN", "of a program")
+    assert token_of("https://lab.example") == "of a program"
+    monkeypatch.delenv("PICO_TOKEN")
+    tokens_file().chmod(0o644)
+    with pytest.raises(PicoError, match="others may read"):
+        token_of("https://lab.example")
+
+
+def test_who_is_not_let_in_and_who_finds_nobody_is_told_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shel = make_example("shel", tmp_path / "shel").root
+    lab = Path(shutil.copytree(shel, tmp_path / "lab"))
+    with relayed(shel) as url:
+        point(lab, url)
+        with pytest.raises(PicoError, match="does not know who asks") as caught:
+            Bench.open(lab)
+        assert caught.value.exit_code == ExitCode.DENIED
+        assert f"`pico login {url}`" in str(caught.value.diagnostics[0].hint)
+        monkeypatch.setenv("PICO_TOKEN", TOKEN)
+        point(lab, url, "shel/bench7")
+        with pytest.raises(PicoError, match="has no bench shel/bench7"):
+            Bench.open(lab)
+        point(lab, url)
+        with pytest.raises(PicoError, match="is a sim bench, and this is for a hardware one"):
+            Bench.open(lab, backend="hardware")
+    with pytest.raises(PicoError, match="does not answer: Connection refused"):
+        Bench.open(lab)
+    assert json.loads((lab / ".git" / "pico" / "remotes.json").read_bytes())["default"] == "lab/shel/bench1"
