@@ -8,7 +8,7 @@ import json
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from pico.server.access.principal import right
 from pico.server.app import create_app
+from pico.server.guard.rates import Rate
 from pico.server.running import listening, server
 from pico.server.store.books import Books, books_in
 from pico.server.store.tables import benches
@@ -25,12 +26,27 @@ BENCH = "shel/bench1"
 
 
 @dataclass
+class Hand:
+    """A clock that a test sets [s]."""
+
+    seconds: float = 1e9
+
+    def __call__(self) -> float:
+        return self.seconds
+
+
+@dataclass
 class Served:
-    """A coordinator at a port of 127.0.0.1, and its books."""
+    """A coordinator at a port of 127.0.0.1, its books, and the clock that they go by."""
 
     books: Books
     port: int
-    secrets: dict[str, str] = field(default_factory=dict)
+    clock: Hand
+    app: Any
+
+    def loosen(self) -> None:
+        """Let everybody ask as often as they like."""
+        self.app.state.failures = self.app.state.requests = Rate(1e9, 1e9)
 
     def person(self, name: str, *rights: str, lasts: float = 3600.0) -> str:
         """Return a token of a principal who has some rights."""
@@ -58,13 +74,26 @@ class Served:
             link.request(method, path, data, {**sent, **(headers or {})})
             answer = link.getresponse()
             said = answer.read()
-            return answer.status, json.loads(said) if said else None
+            told = answer.getheader("content-type", "").startswith("application/json")
+            return answer.status, json.loads(said) if told else said
+        finally:
+            link.close()
+
+    def chunked(self, method: str, path: str, token: str, data: bytes) -> int:
+        """Return the status of an answer to a body whose length was not said."""
+        link = http.client.HTTPConnection("127.0.0.1", self.port, timeout=30)
+        pieces = (data[at : at + 65536] for at in range(0, len(data), 65536))
+        try:
+            sent = {"authorization": f"Bearer {token}", "content-type": "application/json"}
+            link.request(method, path, pieces, sent, encode_chunked=True)
+            return link.getresponse().status
         finally:
             link.close()
 
     def watch(self, path: str, token: str | None = None, **options: Any) -> ClientConnection:
         """Open a socket."""
         sent = {"authorization": f"Bearer {token}"} if token is not None else {}
+        sent |= options.pop("additional_headers", {})
         at = f"ws://127.0.0.1:{self.port}{path}"
         return connect(at, additional_headers=sent, open_timeout=30, close_timeout=30, proxy=None, **options)
 
@@ -72,15 +101,17 @@ class Served:
 @contextmanager
 def served(folder: Path, **options: Any) -> Iterator[Served]:
     """Serve the books in a folder."""
-    books = books_in(folder)
+    clock = Hand()
+    books = books_in(folder, clock)
     listener = listening("127.0.0.1", 0)
-    serving = server(create_app(books, **options))
+    app = create_app(books, **options)
+    serving = server(app)
     thread = threading.Thread(target=lambda: asyncio.run(serving.serve(sockets=[listener])))
     thread.start()
     try:
         while not serving.started and thread.is_alive():
             thread.join(0.01)
-        yield Served(books, listener.getsockname()[1])
+        yield Served(books, listener.getsockname()[1], clock, app)
     finally:
         serving.should_exit = True
         thread.join()

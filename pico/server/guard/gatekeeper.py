@@ -5,7 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, MutableMapping
 from typing import Any
 
+from starlette.exceptions import HTTPException
+
 from pico.server.guard.addresses import host_of, same_origin
+from pico.server.guard.saying import document
 
 BODY = 1 << 20
 """Bytes that a body may have."""
@@ -19,10 +22,6 @@ _HEADERS = (
     (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'"),
 )
 Scope = MutableMapping[str, Any]
-
-
-class TooLong(Exception):
-    """A body has more bytes than one may have."""
 
 
 class Gatekeeper:
@@ -70,7 +69,7 @@ class _Bounded:
         self._app, self._limit = app, limit
 
     async def __call__(self, scope: Scope, receive: Any, send: Any) -> None:
-        count, begun = 0, False
+        count = 0
 
         async def counted() -> Any:
             nonlocal count
@@ -78,26 +77,18 @@ class _Bounded:
             if message["type"] == "http.request":
                 count += len(message.get("body", b""))
                 if count > self._limit:
-                    raise TooLong
+                    raise HTTPException(413, f"a body has {self._limit} bytes at most")
             return message
 
         async def marked(message: Any) -> None:
-            nonlocal begun
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
-                begun = True
                 message["headers"] = [*message.get("headers", ()), *_HEADERS]
             await send(message)
 
-        try:
-            await self._app(scope, counted, marked)
-        except TooLong:
-            if not begun:
-                await _answer(scope, send, 413, f"a body has {self._limit} bytes at most")
+        await self._app(scope, counted, marked)
 
 
 async def _answer(scope: Scope, send: Any, status: int, text: str) -> None:
-    from pico.server.guard.saying import document
-
     kind = "websocket.http.response" if scope["type"] == "websocket" else "http.response"
     body = document(status, text)
     headers = [(b"content-type", b"application/json"), (b"content-length", str(len(body)).encode()), *_HEADERS]

@@ -7,7 +7,8 @@ without.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 from fastapi import APIRouter, FastAPI, Request, Response, WebSocket
@@ -72,19 +73,28 @@ def books(app: FastAPI | Any) -> Books:
 
 async def authenticated(connection: HTTPConnection) -> Principal:
     """Return whose token a request carries; raises PicoError (status 401), and 429 for who asks too often."""
-    address = connection.client.host if connection.client else ""
-    failures: Rate = connection.app.state.failures
-    now = time.monotonic()
-    if failures.left(address, now) < 1:
-        raise _too_often()
-    secret = bearer(connection.headers.get("authorization"))
-    found = books(connection.app).people.known(secret) if secret else None
-    if found is None:
-        failures.taken(address, now)
-        raise unauthenticated()
-    if not connection.app.state.requests.taken(found.name, now):
+    with guessing(connection):
+        secret = bearer(connection.headers.get("authorization"))
+        found = books(connection.app).people.known(secret) if secret else None
+        if found is None:
+            raise unauthenticated()
+    if not connection.app.state.requests.taken(found.name, time.monotonic()):
         raise _too_often()
     return found
+
+
+@contextmanager
+def guessing(connection: HTTPConnection) -> Iterator[None]:
+    """Ask for a secret; raises PicoError (status 429) where too many wrong ones came from the same address."""
+    address = connection.client.host if connection.client else ""
+    failures: Rate = connection.app.state.failures
+    if failures.left(address, time.monotonic()) < 1:
+        raise _too_often()
+    try:
+        yield
+    except PicoError:
+        failures.taken(address, time.monotonic())
+        raise
 
 
 def _too_often() -> PicoError:

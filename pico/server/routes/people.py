@@ -9,7 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from pico.diagnostics import PicoError, error
 from pico.server.access.principal import Principal, require_name, right, unauthenticated
-from pico.server.routes.admitting import books, needs, routed
+from pico.server.routes.admitting import books, guessing, needs, routed
 from pico.server.store.ordered import broken, read_audit
 from pico.server.store.people import Issued
 
@@ -60,9 +60,11 @@ def _made(made: Issued) -> dict[str, Any]:
 @router.post("/login", **needs("public"))
 async def login(request: Request, wanted: Login) -> dict[str, Any]:
     """Exchange a one-time code for a token."""
-    made = await books(request.app).do(books(request.app).people.exchanged, wanted.code, wanted.label, DAYS * 86400)
-    if made is None:
-        raise unauthenticated()
+    with guessing(request):
+        people = books(request.app).people
+        made = await books(request.app).do(people.exchanged, wanted.code, wanted.label, DAYS * 86400)
+        if made is None:
+            raise unauthenticated()
     return _made(made)
 
 
