@@ -22,7 +22,6 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "lease": "who has a bench",
     "token": "programs at a served bench",
     "gui": "PICO in a browser",
 }
@@ -30,7 +29,7 @@ RESERVED = {
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices", "edge",
-    "commission", "serve", "remote", "login",
+    "commission", "serve", "remote", "login", "lease",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

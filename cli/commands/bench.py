@@ -1,7 +1,8 @@
-"""The simulator, and the rest, 11: `pico bench update`."""
+"""The simulator, and the rest, 11: `pico bench`."""
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -10,15 +11,62 @@ from pico.diagnostics import ExitCode
 
 from ..arguments import Yes, group
 from ..session import Session
+from ..views import benches as benches_view
+from ..views import meant as meant_view
 from ..views import proposal as view
 
-app = group(help="The bench's own Lab, which plans go by.", examples=("pico bench update --dry-run",))
+app = group(
+    help="Which bench commands mean, and its own Lab, which plans go by.",
+    examples=("pico bench list", "pico bench use shel/bench1", "pico bench update --dry-run"),
+)
 
 Detailed = Annotated[bool, typer.Option("--dry-run", help="Show what differs, and adopt nothing.")]
 
 
 @app.callback()
 def _group() -> None: ...
+
+
+@app.command("list")
+def list_(context: typer.Context) -> None:
+    """List the benches of the coordinators that this checkout knows, and who has them.
+
+    Examples:
+      pico bench list
+    """
+    from pico.edge.network import remotes
+    from pico.edge.network.asking import ask
+    from pico.manifest.load import find_lab
+
+    session = Session.of(context)
+    root = find_lab(session.folder)
+    known = remotes.known(root)
+    found = {name: ask(one, "GET", "/benches") for name, one in sorted(known.named.items())}
+    session.show(benches_view, found, remotes.chosen(root, session.at))
+
+
+@app.command()
+def use(
+    context: typer.Context,
+    bench: Annotated[str, typer.Argument(metavar="LAB/BENCH", help="As in the list; `local`: this checkout's own.")],
+) -> None:
+    """Let commands mean a bench where none is said.
+
+    Kept by this checkout, never in a commit.
+
+    Examples:
+      pico bench use shel/bench1
+      pico bench use local
+    """
+    from pico.edge.network import remotes
+    from pico.manifest.load import find_lab
+
+    session = Session.of(context)
+    root = find_lab(session.folder)
+    known = remotes.known(root)
+    default = "" if bench == remotes.LOCAL else "/".join(remotes.named(known, bench))
+    remotes.keep(root, replace(known, default=default))
+    session.show(meant_view, remotes.chosen(root))
 
 
 @app.command()

@@ -1,0 +1,123 @@
+"""The simulator, and the rest, 17: `pico lease`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from pico.diagnostics import PicoError, error
+
+from ..arguments import Yes, group
+from ..session import Session
+from ..views import lease as view
+
+if TYPE_CHECKING:
+    from pico.edge.network.holding import Holding
+
+app = group(
+    help="Who has a bench on the network.",
+    examples=("pico lease show", "pico lease take", 'pico lease steal --reason "the cell is boiling"'),
+)
+Wait = Annotated[float, typer.Option("--wait", metavar="SECONDS", min=0, help="Wait so long where somebody has it.")]
+
+
+@app.callback()
+def _group() -> None: ...
+
+
+@app.command()
+def show(context: typer.Context) -> None:
+    """Show who has the bench, since when, and who is next.
+
+    Examples:
+      pico lease show
+      pico lease show --bench shel/bench1 --json
+    """
+    session = Session.of(context)
+    holding = _holding(session)
+    session.show(view, holding.far.name, holding.show())
+
+
+@app.command()
+def take(context: typer.Context, wait: Wait = 0.0) -> None:
+    """Have the bench until Ctrl-C, for what this checkout does meanwhile.
+
+    A command that moves something takes the bench by itself, for as long as it lasts; this keeps others out in
+    between. Leave it open in a terminal of its own. Exit code 5: somebody else has it.
+
+    Examples:
+      pico lease take
+      pico lease take --wait 600
+    """
+    session = Session.of(context)
+    holding = _holding(session)
+    _hold(session, holding, holding.take(wait))
+
+
+@app.command()
+def release(context: typer.Context) -> None:
+    """Give the bench back, and end the `pico lease take` of this checkout.
+
+    Examples:
+      pico lease release
+    """
+    session = Session.of(context)
+    holding = _holding(session)
+    had = holding.release()
+    session.show(view, holding.far.name, holding.show(), released=had)
+
+
+@app.command()
+def steal(
+    context: typer.Context,
+    reason: Annotated[str, typer.Option("--reason", metavar="TEXT", help="Why; who has it is told.")],
+    auto_approve: Yes = False,
+) -> int:
+    """Take the bench from whoever has it, and have it until Ctrl-C.
+
+    What moves for them comes to a safe end first. It is written down with the reason, and needs the role lease:steal.
+
+    Examples:
+      pico lease steal --reason "the cell is boiling"
+    """
+    session = Session.of(context)
+    session.require_answer(auto_approve)
+    holding = _holding(session)
+    found = holding.show()
+    who = found["holder"]["who"] if found["holder"] else "nobody"
+    if not session.confirm(f"Take {holding.far.name} from {who}?", auto_approve):
+        session.say("Nothing was taken.")
+        return 1
+    _hold(session, holding, holding.steal(reason))
+    return 0
+
+
+def _hold(session: Session, holding: Holding, token: int) -> None:
+    """Have the bench until somebody ends that."""
+    session.show(view, holding.far.name, holding.show())
+    session.say("It is yours until Ctrl-C, or `pico lease release` in another terminal.")
+    try:
+        for _ in holding.renewed(token):
+            pass
+    except KeyboardInterrupt:
+        holding.release()
+        session.say("\nIt is given back.")
+    except PicoError as exc:
+        if not holding.show()["holder"] and exc.diagnostics[0].code == "lost":
+            session.say("It was given back.")
+            return
+        raise
+
+
+def _holding(session: Session) -> Holding:
+    """Return the lease of the bench that is meant; raises PicoError where that is not on the network."""
+    from pico.edge.network.holding import Holding
+    from pico.manifest.load import find_lab
+
+    far = session.far(find_lab(session.folder))
+    if far is None:
+        text = "the bench of this checkout is nobody else's: there is no lease to ask for"
+        hint = "`--bench LAB/BENCH` means one on the network; `pico remote list` shows where"
+        raise PicoError(error("local", text, hint=hint))
+    return Holding(far)
