@@ -11,6 +11,9 @@ was to go, a device told to move twice for one operation or for none; an operati
 component that is not where the journal or the next look says, or lies; a failure that names neither component nor
 device; a call that took over 5 s; motion after a stop; a goal that five commands without faults do not reach. The exit
 code is 1 where anything is wrong.
+
+`--restoration` is one of the paper's instead, E3-2 to E1-1, without faults and at the pace of a real arm, judged in the
+same way: it takes as long as that would, and has the simulator's operations.
 """
 
 from __future__ import annotations
@@ -36,13 +39,14 @@ os.environ.setdefault("PICO_EMULATED_PACE", "10")
 
 import wire_judged as judged  # noqa: E402
 from proxy import FAULTS  # noqa: E402
-from wire_told import Log, Wires, journalled  # noqa: E402
+from wire_told import Lateness, Log, Wires, journalled  # noqa: E402
 
 from pico.bench.bench import Bench  # noqa: E402
 from pico.diagnostics import ExitCode, PicoError  # noqa: E402
 from pico.drivers.bus import LONGEST, Bus  # noqa: E402
 from pico.history.examples.example import make_example  # noqa: E402
 from pico.model.observation import Observation  # noqa: E402
+from pico.model.operation import Operation  # noqa: E402
 from pico.model.plan import Plan, Target  # noqa: E402
 from pico.model.state import with_values  # noqa: E402
 from pico.planning import PlanGoal  # noqa: E402
@@ -67,7 +71,7 @@ BUSY = 0.5
 """A machine that is later than this [s] with a thread that sleeps is no measure of how many commands it takes."""
 LONGEST_FAULT = 2.0
 """How long a fault lasts at most [s]."""
-LATEST = 800
+LATEST = 150
 """How much of what a run does may happen before a fault: an arm tells 200 times a second where it is."""
 
 
@@ -81,25 +85,6 @@ def bench_in(folder: Path) -> None:
         stage = STAGES.format(axis=axis, number=number)
         wiring = re.sub(rf"  ly_200_{axis}:\n(?:    .*\n)+", lambda _, stage=stage: stage, wiring)  # type: ignore[misc]
     (folder / "devices.yaml").write_text(wiring)
-
-
-class Lateness:
-    """How late this machine was with a thread that only sleeps."""
-
-    def __init__(self) -> None:
-        self.worst = 0.0
-        threading.Thread(target=self._beat, daemon=True).start()
-
-    def _beat(self) -> None:
-        while True:
-            before = time.monotonic()
-            time.sleep(0.05)
-            self.worst = max(self.worst, time.monotonic() - before - 0.05)
-
-    def take(self) -> float:
-        """Return how late it was since this was asked last [s]."""
-        found, self.worst = self.worst, 0.0
-        return found
 
 
 class Trial:
@@ -129,11 +114,20 @@ class Trial:
                     self.slow.append((f"{name} was asked to {what} for {took:.1f} s", took))
 
         Bus.ask = timed  # type: ignore[method-assign]
+        return self.reopened()
+
+    def reopened(self) -> Bench:
+        """Open the bench, where it was closed."""
         self.bench = Bench.open(self.folder, backend="emulated")
         self.seen()
         assert self.bench.setup.wiring
         self.owners = {n: e.of or n for n, e in self.bench.setup.wiring.devices.items()}
         return self.bench
+
+    def close(self) -> None:
+        """Let go of it, and of its wires."""
+        self.bench.close()
+        self.wires.close()
 
     # where to
 
@@ -223,7 +217,11 @@ class Trial:
                     self.count["moves"] += one.data.outcome == "done" and bool(
                         one.data.data.get("error_mm") is not None
                     )
-        setup, world = self.bench.setup, self.wires.world
+        yield from self.judged(begun)
+
+    def judged(self, begun: int) -> Iterator[str]:
+        """Yield what is wrong with what happened since then."""
+        told, setup, world = self.log.told[begun:], self.bench.setup, self.wires.world
         yield from judged.repeated(setup, told, self.owners)
         yield from judged.unended(told)
         yield from judged.unnamed(setup, told)
@@ -275,7 +273,7 @@ class Trial:
         try:
             plan, self.why = planned(), ""
             if plan.operations and not plan.errored:
-                yield from self._run(plan, self.draw.uniform(0.0, 10.0) if stops else None)
+                yield from self.ran(plan, self.draw.uniform(0.0, 10.0) if stops else None)
             elif plan.errored:
                 self.why = "; ".join(d.summary for d in plan.diagnostics if d.severity == "error")
         except PicoError as exc:
@@ -295,7 +293,8 @@ class Trial:
         slow, self.slow = self.slow, []
         yield from (text for text, took in slow if took > LONGEST + slack)
 
-    def _run(self, plan: Plan, stop_after: float | None) -> Iterator[str]:
+    def ran(self, plan: Plan, stop_after: float | None = None) -> Iterator[str]:
+        """Run a plan; yield what is wrong with how it ends."""
         run = self.bench.run(plan, resumes=self.resumed)
         self.resumed = None
         stopping = threading.Timer(stop_after or 0.0, run.stop)
@@ -354,12 +353,40 @@ class Trial:
         return all(robots[n].is_parked(r.joints) for n, r in self.wires.world.world().robots.items() if n in robots)
 
 
+def restored(trial: Trial) -> Iterator[str]:
+    """Restore E1-1 from E3-2 as a real arm would, and yield what is wrong with how."""
+    start, end = "E3-2", "E1-1"
+    trial.open().apply(start)
+    trial.close()
+    os.environ["PICO_EMULATED_PACE"] = "1"
+    bench = trial.reopened()
+    simulated = Bench.open(trial.folder)
+    simulated.apply(start)
+    plan, planned = bench.plans.plan(end), simulated.plans.plan(end)
+    simulated.close()
+    if [_what(op) for op in plan.operations] != [_what(op) for op in planned.operations]:
+        yield f"the plan is another than the simulator's: {plan.operations} and {planned.operations}"
+    begun, began = len(trial.log.told), time.monotonic()
+    yield from trial.ran(plan)
+    took = time.monotonic() - began
+    yield from trial.judged(begun)
+    left = bench.plans.plan(end)
+    if left.operations or left.errored:
+        yield f"{end} is not reached: {', '.join(c.text for c in left.changes)} {left.diagnostics}"
+    print(f"{len(plan.operations)} operations in {took:.0f} s, {plan.makespan:.0f} s planned, {start} to {end}")
+
+
+def _what(op: Operation) -> tuple[object, ...]:
+    return op.id, op.primitive, op.component, op.arguments.get("tunable"), op.after
+
+
 def main() -> int:
     """Hurt, and judge."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--operations", type=int, default=1000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--quiet", action="store_true", help="without faults")
+    parser.add_argument("--restoration", action="store_true", help="one of the paper's, at the pace of a real arm")
     parser.add_argument("--keep", type=Path, help="where the bench is left")
     given = parser.parse_args()
     wrong, began = 0, time.monotonic()
@@ -367,8 +394,13 @@ def main() -> int:
         folder = Path(temporary) / "shel"
         bench_in(folder)
         trial = Trial(folder, given.seed, given.quiet)
-        bench = trial.open()
         try:
+            if given.restoration:
+                for text in restored(trial):
+                    wrong += 1
+                    print(f"wrong: {text}", flush=True)
+                return 1 if wrong else 0
+            trial.open()
             while (ended := sum(trial.count[o] for o in ("done", "failed", "unknown"))) < given.operations:
                 for text in trial.cycle():
                     wrong += 1
@@ -380,8 +412,7 @@ def main() -> int:
         except KeyboardInterrupt:  # what was found until then is told
             pass
         finally:
-            bench.close()
-            trial.wires.close()
+            trial.close()
         if given.keep:
             shutil.copytree(folder, given.keep)
     told = ", ".join(f"{n} {what}" for what, n in sorted(trial.count.items()))

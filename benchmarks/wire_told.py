@@ -132,6 +132,25 @@ class Wires:
         self.proxies = {}
 
 
+class Lateness:
+    """How late this machine was with a thread that only sleeps."""
+
+    def __init__(self) -> None:
+        self.worst = 0.0
+        threading.Thread(target=self._beat, daemon=True).start()
+
+    def _beat(self) -> None:
+        while True:
+            before = time.monotonic()
+            time.sleep(0.05)
+            self.worst = max(self.worst, time.monotonic() - before - 0.05)
+
+    def take(self) -> float:
+        """Return how late it was since this was asked last [s]."""
+        found, self.worst = self.worst, 0.0
+        return found
+
+
 def journalled(log: Log) -> None:
     """Have the log hear of every operation that the journal has begun or ended."""
     from pico.runs.journal import Journal
