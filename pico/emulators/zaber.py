@@ -27,18 +27,14 @@ class Stage:
         self._motion: Motion | None = None
         self._warning, self._homed = "--", behind.read("homed") is True
 
-    def reply(self, words: list[str]) -> tuple[str, str, str]:
-        """Return flag, data and warning of the reply to a command."""
+    def reply(self, words: list[str]) -> str:
+        """Return flag, status, warning and data of the reply to a command, all of one moment."""
         now = self._behind.now()
         self._go_on(now)
         flag, data = self._said(words, now)
-        return flag, data, self._warning if self._homed or self._warning != "--" else "WR"
-
-    @property
-    def busy(self) -> bool:
-        """Whether it moves."""
-        self._go_on(self._behind.now())
-        return self._motion is not None
+        status = "IDLE" if self._motion is None else "BUSY"
+        warning = self._warning if self._homed or self._warning != "--" else "WR"
+        return f"{flag} {status} {warning} {data}"
 
     def _said(self, words: list[str], now: float) -> tuple[str, str]:
         match words:
@@ -117,10 +113,8 @@ class Chain:
     def _one(self, device: int, axis: int, message: list[int], words: list[str], summed: bool) -> bytes:
         if device not in self._stages:
             return b""
-        stage = self._stages[device]
-        flag, data, warning = stage.reply(words)
         number = f" {message[0]:02d}" if message else ""
-        said = f"{device:02d} {axis}{number} {flag} {'BUSY' if stage.busy else 'IDLE'} {warning} {data}"
+        said = f"{device:02d} {axis}{number} {self._stages[device].reply(words)}"
         return f"@{said}:{_checksum(said):02X}\r\n".encode() if summed else f"@{said}\r\n".encode()
 
 
