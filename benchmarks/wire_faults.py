@@ -368,7 +368,7 @@ def restored(trial: Trial) -> Iterator[str]:
     plan, planned = bench.plans.plan(end), simulated.plans.plan(end)
     simulated.close()
     if [_what(op) for op in plan.operations] != [_what(op) for op in planned.operations]:
-        yield f"the plan is another than the simulator's: {len(plan.operations)} and {len(planned.operations)} operations"
+        yield f"the simulator plans {len(planned.operations)} other operations than these {len(plan.operations)}"
     begun, began = len(trial.log.told), time.monotonic()
     yield from trial.ran(plan)
     took = time.monotonic() - began

@@ -3,7 +3,8 @@
     python benchmarks/xarm_link.py --seconds 10 --losses 10
 
 Set-points: how many were sent, at what mean rate, how many the control box refused. Losses: a process that is frozen,
-killed, or started anew under a motion, from that until the driver says so, and whether it is ready again afterwards.
+killed, or started anew under a motion, or while nobody asks anything, from that until the driver says so, and whether
+it is ready again afterwards.
 The exit code is 1 where a set-point was refused or an arm was not found again, 3 where only a loss was told later than
 after 1 s.
 """
@@ -14,6 +15,7 @@ import argparse
 import asyncio
 import sys
 import time
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -50,17 +52,9 @@ async def streamed(arm: XArm, emulator: XArmEmulator, seconds: float) -> bool:
     return not refused
 
 
-async def lost(arm: XArm, emulator: XArmEmulator, how: str) -> tuple[float, bool]:
+async def lost(arm: XArm, bus: Bus[Any], emulator: XArmEmulator, how: str, idle: bool) -> tuple[float, bool]:
     """How long after the loss the driver said so [s], and whether the arm is ready again."""
-    moving = asyncio.create_task(arm.follow(*path(emulator, 0.5 if emulator.joints[0] < 1.0 else -0.5, 10.0)))
-    await asyncio.sleep(0.3)
-    began = time.monotonic()
-    await asyncio.to_thread(getattr(emulator, how))
-    try:
-        await moving
-        took = float("inf")
-    except PicoError:
-        took = time.monotonic() - began
+    took = await (until_told(bus, emulator, how) if idle else until_failed(arm, emulator, how))
     if how == "freeze":
         emulator.thaw()
     elif how == "kill":
@@ -73,22 +67,44 @@ async def lost(arm: XArm, emulator: XArmEmulator, how: str) -> tuple[float, bool
     return took, False
 
 
+async def until_told(bus: Bus[Any], emulator: XArmEmulator, how: str) -> float:
+    """How long after the loss the bus knows of it, of which nobody asks anything [s]."""
+    bus.lost, began = "", time.monotonic()
+    await asyncio.to_thread(getattr(emulator, how))
+    while not bus.lost and time.monotonic() - began < 10.0:
+        await asyncio.sleep(0.01)
+    return time.monotonic() - began if bus.lost else float("inf")
+
+
+async def until_failed(arm: XArm, emulator: XArmEmulator, how: str) -> float:
+    """How long after the loss a motion ends with that [s]."""
+    moving = asyncio.create_task(arm.follow(*path(emulator, 0.5 if emulator.joints[0] < 1.0 else -0.5, 10.0)))
+    await asyncio.sleep(0.3)
+    began = time.monotonic()
+    await asyncio.to_thread(getattr(emulator, how))
+    try:
+        await moving
+    except PicoError:
+        return time.monotonic() - began
+    return float("inf")
+
+
 async def run(seconds: float, losses: int) -> int:
     emulator = XArmEmulator(joints=HOME, serial=SERIAL)
     emulator.start()
     entry = DeviceEntry(driver="xarm.arm", address=emulator.address, identity={"serial": SERIAL})
-    bus: Bus[Any] = Bus(lambda: DRIVER.opened(entry), DRIVER.closed)
+    bus: Bus[Any] = Bus(lambda: DRIVER.opened(entry), DRIVER.closed, DRIVER.alive)
     arm = XArm("arm1", entry, bus)
     try:
         await arm.connect()
         await arm.ready()
         good, late = await streamed(arm, emulator, seconds), False
-        for how in ("freeze", "kill", "restart"):
-            found = [await lost(arm, emulator, how) for _ in range(losses)]
+        for how, idle in product(("freeze", "kill", "restart"), (False, True)):
+            found = [await lost(arm, bus, emulator, how, idle) for _ in range(losses)]
             took = sorted(t for t, _ in found)
             ready = sum(r for _, r in found)
             often = f"{took[len(took) // 2]:.2f} s (median), {took[-1]:.2f} s at most"
-            print(f"{how}: noticed after {often}; ready again {ready} of {losses}")
+            print(f"{how}{', idle' if idle else ''}: noticed after {often}; ready again {ready} of {losses}")
             good, late = good and ready == losses, late or took[-1] > LATEST
         print(f"registers that the emulator does not know: {emulator.box.unknown or 'none'}")
         return 1 if not good else 3 if late else 0

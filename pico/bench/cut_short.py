@@ -40,12 +40,13 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     """Return that somebody moves the bench now; else what `cut_short` does, or that the last run was interrupted, and
     which arms stand where they were stopped with an empty hand."""
-    from pico.model.observation import left_standing
+    from pico.model.observation import LOST, left_standing
 
     found = goes_on(opened)
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
     doses = opened.wait(opened.edge.doses())
-    return (*unattended(opened), *cut, *(note for one in doses for note in _dose(one)))
+    lost = (problem for problem in seen.problems if problem.code == LOST)
+    return (*unattended(opened), *lost, *cut, *(note for one in doses for note in _dose(one)))
 
 
 def _dose(one: Dose) -> Iterator[Diagnostic]:

@@ -1,7 +1,8 @@
 """One worker thread a bus: vendors' libraries block, so all calls of what shares a link queue here, with deadlines.
 
 A call that does not return in time is told as late, and its thread is abandoned: the link is closed under it, so that
-nothing more is sent by it, and opened anew for the next call. Nobody waits longer than LONGEST. Seconds throughout.
+nothing more is sent by it, and opened anew for the next call. Nobody waits longer than LONGEST. A link that tells of
+itself whether it is alive is looked after while nobody asks anything, too. Seconds throughout.
 """
 
 from __future__ import annotations
@@ -26,6 +27,8 @@ USUAL = 2.0
 """How long a call may take, where its driver says nothing else [s]."""
 _AGAIN = 0.05
 """How often one who waits for its turn looks whether the call ahead is overdue [s]."""
+BEAT = 0.2
+"""How often a link is looked after while nobody asks anything [s]."""
 
 
 @dataclass(eq=False)
@@ -43,10 +46,13 @@ class _Call:
 
 
 class _Worker(Generic[H]):
-    """A thread that does calls over one link, until it is told to leave."""
+    """A thread that does calls over one link, until it is told to leave; `lost` is told why the link was lost."""
 
-    def __init__(self, opened: Callable[[], H], closed: Callable[[H], object], calls: deque[_Call]) -> None:
-        self._opened, self._closed = opened, closed
+    def __init__(
+        self, opened: Callable[[], H], closed: Callable[[H], object], calls: deque[_Call],
+        alive: Callable[[H], object] | None, lost: Callable[[str], object],
+    ) -> None:  # fmt: skip
+        self._opened, self._closed, self._alive, self._lost = opened, closed, alive, lost
         self.calls = calls
         self.now: _Call | None = None
         self.changed = threading.Condition()
@@ -72,13 +78,25 @@ class _Worker(Generic[H]):
         return left
 
     def _next(self) -> _Call | None:
-        with self.changed:
-            while not self.calls and not self.leaving:
-                self.changed.wait()
-            self.now = None if self.leaving else self.calls.popleft()
-            if self.now:
-                self.now.began = time.monotonic()
-            return self.now
+        while True:
+            with self.changed:
+                if not self.calls and not self.leaving:
+                    self.changed.wait(BEAT if self._alive and self._link is not None else None)
+                if self.calls or self.leaving:
+                    self.now = None if self.leaving else self.calls.popleft()
+                    if self.now:
+                        self.now.began = time.monotonic()
+                    return self.now
+            self._beat()
+
+    def _beat(self) -> None:
+        """Let go of a link that is not alive any more, while nobody asks anything."""
+        link = self._link
+        if self._alive and link is not None:
+            try:
+                self._alive(link)
+            except Exception as exc:
+                self._drop(exc)
 
     def _work(self) -> None:
         while call := self._next():
@@ -88,7 +106,7 @@ class _Worker(Generic[H]):
                 result = self._done(call)
             except BaseException as exc:
                 if not isinstance(exc, PicoError):  # what a device says is no reason to distrust its link
-                    self._drop()
+                    self._drop(exc)
                 call.done.set_exception(exc)
             else:
                 call.done.set_result(result)
@@ -106,9 +124,11 @@ class _Worker(Generic[H]):
     def _open(self, link: H | None) -> None:
         self._link = self._opened() if link is None else link
 
-    def _drop(self) -> None:
+    def _drop(self, why: BaseException | None = None) -> None:
         link, self._link = self._link, None
         if link is not None:
+            if why is not None:
+                self._lost(str(why) or type(why).__name__)
             self._close(link)
 
     def _close(self, link: H) -> None:
@@ -118,10 +138,15 @@ class _Worker(Generic[H]):
 
 class Bus(Generic[H]):
     """A link that one or more devices share: `opened` opens it, `closed` closes it, also while a call hangs in it; both
-    may block. It is opened by the first call, and anew after each that failed otherwise than by a PicoError."""
+    may block. It is opened by the first call, and anew after each that failed otherwise than by a PicoError. `alive`
+    raises where the link is not any more, without asking over it; it is called every BEAT while nobody asks anything.
+    `lost` says why the link before this one was lost, '' where none was."""
 
-    def __init__(self, opened: Callable[[], H], closed: Callable[[H], object]) -> None:
-        self._opened, self._closed = opened, closed
+    def __init__(
+        self, opened: Callable[[], H], closed: Callable[[H], object], alive: Callable[[H], object] | None = None
+    ) -> None:
+        self._opened, self._closed, self._alive = opened, closed, alive
+        self.lost = ""
         self._worker: _Worker[H] | None = None
         self._lock = threading.Lock()
         self._users: set[object] = set()
@@ -185,8 +210,11 @@ class Bus(Generic[H]):
     def _hired(self) -> _Worker[H]:
         with self._lock:
             if self._worker is None:
-                self._worker = _Worker(self._opened, self._closed, deque())
+                self._worker = self._hire(deque())
             return self._worker
+
+    def _hire(self, calls: deque[_Call]) -> _Worker[H]:
+        return _Worker(self._opened, self._closed, calls, self._alive, lambda why: setattr(self, "lost", why))
 
     def _require_prompt(self) -> None:
         """Abandon the thread where its call is overdue; another one takes what waits."""
@@ -194,7 +222,8 @@ class Bus(Generic[H]):
             worker = self._worker
             now = worker.now if worker else None
             if worker and now and not now.done.done() and now.left(time.monotonic()) <= 0:
-                self._worker = _Worker(self._opened, self._closed, worker.leave())
+                self.lost = "it did not answer in time"
+                self._worker = self._hire(worker.leave())
 
 
 _HINT = "check its cable, power and address; `pico devices check` asks all of them"

@@ -82,7 +82,7 @@ async def _safety(read: Any) -> str:
 
 async def _arm(arm: Any) -> str:
     state = await arm.state()
-    said = "enabled" if state.enabled else "not enabled"
+    said = f"{'enabled' if state.enabled else 'not enabled'}, heard of {state.age:.1f} s ago"
     return said + (", moving" if state.moving else "") + (f", fault {state.fault}" if state.fault else "")
 
 

@@ -18,7 +18,8 @@ Kind = Literal[
 @dataclass(frozen=True)
 class Driver:
     """A driver. `kind`: which protocol its instruments have; `made(name, entry, bus)` makes one, which opens nothing
-    yet. `opened(entry)` opens the link of a bus and `closed(link)` closes it, both blocking, in the bus's thread.
+    yet. `opened(entry)` opens the link of a bus and `closed(link)` closes it, both blocking, in the bus's thread;
+    `alive(link)` raises where it is lost, for links that tell by themselves.
 
     `address`: what an address says, with what that is; `bus`: which of it tells one link from another. `properties`:
     what a lab may map and limit, with units. `needs`: the vendor's module, and the extra that installs it, or neither.
@@ -39,5 +40,6 @@ class Driver:
     tried: str = ""
     """With `on device`: the date and the firmware."""
     emulator: str = ""
+    alive: Callable[[Any], object] | None = None
     link: str = ""
     """Drivers that can share a link say the same here; else none do."""

@@ -31,13 +31,15 @@ class Identity:
 @record
 class ArmState:
     """An arm as it last reported itself: `joints` from the base outward [rad], how old that is [s], whether it moves,
-    whether it would, and the controller's fault (0: none)."""
+    whether it would, and the controller's fault (0: none). `lost`: why the link was lost by which it was got ready, ''
+    where it was not; it may have been without power since, and is to be got ready again."""
 
     joints: tuple[float, ...]
     age: float
     moving: bool
     enabled: bool
     fault: int = 0
+    lost: str = ""
 
 
 @record

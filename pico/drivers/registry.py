@@ -65,7 +65,7 @@ class Buses:
         link = found.link or f"{entry.driver} of {name}"
         key = (link, *(str(entry.address.get(part, "")) for part in found.bus))
         if key not in self._buses:
-            self._buses[key] = Bus(lambda: found.opened(entry), found.closed)
+            self._buses[key] = Bus(lambda: found.opened(entry), found.closed, found.alive)
         return found.made(name, entry, self._buses[key])
 
     async def close(self) -> None:

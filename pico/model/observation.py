@@ -18,6 +18,8 @@ from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 Presence = Literal["seen", "missing", "held", "toppled"]
+LOST = "arm-lost"
+"""The code of the problem that an arm was lost since it was got ready."""
 
 
 @record

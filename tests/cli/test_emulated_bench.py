@@ -18,6 +18,9 @@ import pytest
 from commanding import Pico, edit
 
 from pico.backends.emulated.bench import PACE
+from pico.backends.hardware.links import _open
+from pico.bench.bench import Bench
+from pico.emulators.xarm.server import XArmEmulator
 from pico.model.pose import Pose
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
@@ -111,6 +114,25 @@ def test_what_a_kill_in_the_midst_of_a_move_left_is_found_and_finished(wired: Pa
     assert stands(wired, "p1").distance(Pose(290, 420, 0)) < 0.1
     assert world(wired)["robots"]["arm1"].get("holding") is None
     assert pico(*EMULATED, "plan", "C2", "--detailed-exitcode").code == 0
+
+
+def test_a_control_box_that_was_away_while_nobody_asked_is_told_and_got_ready_again(wired: Path) -> None:
+    with Bench.open(wired, backend="emulated") as bench:
+        assert bench.apply("C1").outcome == "done"
+        links = _open[wired.resolve(), "emulated"]
+        assert links.emulators is not None
+        (arm,) = (one for one in links.emulators._running if isinstance(one, XArmEmulator))
+        (bus,) = (bus for key, bus in links._buses._buses.items() if key[0] == "xarm")
+        bus.lost = ""
+        arm.restart()
+        for _ in range(6000):  # until that is missed
+            if bus.lost:
+                break
+            time.sleep(0.01)
+        (said,) = (told for told in bench.drift.status().cut_short if told.code == "arm-lost")
+        assert bus.lost in said.summary and said.address == "arm1"
+        assert bench.apply("C2").outcome == "done"
+        assert not [told for told in bench.drift.status().cut_short if told.code == "arm-lost"]
 
 
 def test_somebody_at_the_table_keeps_the_arm_from_moving(wired: Path, pico: Pico) -> None:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import pytest
 
 from pico.diagnostics import PicoError, error
+from pico.drivers import bus as bus_file
 from pico.drivers.bus import Bus
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
@@ -211,3 +212,27 @@ def test_after_a_lost_link_it_is_asked_again_who_answers() -> None:
 
     asyncio.run(go())
     assert moved == []
+
+
+def test_a_link_is_looked_after_while_nobody_asks_anything(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It is let go of at the beat at which it says that it is lost; the next call has a new one."""
+    monkeypatch.setattr(bus_file, "BEAT", 0.001)
+    wire, beats = Wire(), list[int]()
+
+    def alive(link: Link) -> None:
+        beats.append(link.number)
+        if len(beats) == 4:
+            raise ConnectionError("nothing was heard of it")
+
+    bus = Bus(wire.opened, lambda link: link.closed.set(), alive)
+
+    async def go() -> int:
+        await bus.ask("a", "read", lambda link: link.number)
+        assert await asyncio.to_thread(wire.links[0].closed.wait, 20)
+        assert beats == [0] * 4 and bus.lost == "nothing was heard of it"
+        number = await bus.ask("a", "read", lambda link: link.number)
+        await bus.close()
+        return number
+
+    assert asyncio.run(go()) == 1
+    assert bus.lost == "nothing was heard of it", "who was got ready by that link is to know"

@@ -1,4 +1,4 @@
-"""An emulated stage tells what is so at one moment, as a stage does: its driver takes it for at rest where it says so."""
+"""An emulated stage tells what is so at one moment: its driver takes it for at rest where it says so."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from pico.backends.hardware.tunables import UNKNOWN
 from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.drivers.protocols import Grip, SafetyState
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
+from pico.model.observation import LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints
@@ -48,6 +48,10 @@ async def told(bench: Instruments) -> Told:
     if lost := [d for found in (states, grips) for exc in found.values() if isinstance(exc, PicoError)
                 for d in exc.diagnostics]:  # fmt: skip
         raise PicoError(lost)
+    for name, state in states.items():
+        if not isinstance(state, PicoError) and state.lost:
+            text = f"{name} was lost, for {state.lost}, and was found again"
+            problems.append(warning(LOST, text, hint="it is got ready again by the next run", address=name))
     for address, found in {**values, **inputs}.items():
         if isinstance(found, PicoError):
             said = found.diagnostics[0]

@@ -272,6 +272,7 @@ class HardwareSession:
                 await self._leave(operation, path, stage)
 
         way = self._way(operation, path, asked, speed)
+        await self._require_kept(robot)
         with self._zones.held(operation, path):
             self._ways[robot] = way
             try:
@@ -313,6 +314,15 @@ class HardwareSession:
             hint = "a hand on the stop; then run the next one. `pico devices` says how far each driver was tried"
             raise Failed(error("first-motion", text, hint=hint, address=robot))
         self._moved.add(robot)
+
+    async def _require_kept(self, robot: str) -> None:
+        """Raise PicoError for an arm that was lost since it was got ready: not even its fingers move before it is
+        again."""
+        if lost := (await self._bench.arms[robot].state()).lost:
+            text = f"{robot} was lost, for {lost}: it does not move before it is got ready again"
+            raise PicoError(
+                error("device-lost", text, hint="look at the arm; the next run gets it ready", address=robot)
+            )
 
     async def _withdraw(self, operation: Operation) -> None:
         """Bring an arm with an empty hand to its park pose, where there is a way; who looks next sees where it is."""

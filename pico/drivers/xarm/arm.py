@@ -32,6 +32,7 @@ _MOVING, _STOPPED, _RESET = 1, 4, 5
 _BY_THE_BOX, _BY_SET_POINTS = 0, 1
 _REPORTED = 1.5
 """How long it may take until what was told is reported [s]."""
+_GONE = object()
 _RETURNED = 0.5
 """How long after a stop it may take until the arm is at rest [s]."""
 
@@ -41,10 +42,10 @@ class XArm:
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Link]) -> None:
         """Open nothing yet. Raises PicoError for settings that make no sense."""
-        self.name, self.settings = name, settings(name, entry)
+        self.name, self.settings, self._bus = name, settings(name, entry), bus
         self._line = Line(name, bus, entry.identity, self._identified)
         self._link: Link | None = None
-        self._ready_link: Link | None = None
+        self._ready_link: object = None  # by which it was got ready, _GONE once that was lost under a motion
         self._stream: Stream | None = None
 
     async def connect(self) -> Identity:
@@ -72,7 +73,7 @@ class XArm:
         try:
             how = await asyncio.shield(asyncio.wrap_future(stream.done))
         except ConnectionError as exc:
-            self._ready_link = None
+            self._ready_link = _GONE
             with suppress(PicoError):
                 await self._line.ask("be let go of", _lost)
             during = f" during {doing}" if doing else ""
@@ -112,6 +113,7 @@ class XArm:
         """Let go of the link."""
         await self.halt()
         await self._line.close()
+        self._ready_link = None
 
     def _identified(self, link: Link) -> Identity:
         self._link = link
@@ -123,7 +125,12 @@ class XArm:
         on = all(link.arm.motor_enable_states[:7]) and state not in (_STOPPED, _RESET) and not fault
         enabled = bool(on and link is self._ready_link)
         moving, at = state == _MOVING, link.joints()
-        return ArmState(joints=at, age=link.age, moving=moving, enabled=enabled, fault=fault)
+        lost = self._lost_since(link)
+        return ArmState(joints=at, age=link.age, moving=moving, enabled=enabled, fault=fault, lost=lost)
+
+    def _lost_since(self, link: Link) -> str:
+        """Why the link was lost by which it was got ready; '' where it was not."""
+        return "" if self._ready_link in (None, link) else self._bus.lost or "its link was opened anew"
 
     def _ask(self, link: Link, what: str, call: Callable[[], Any], *more: int) -> Any:
         return link.ask(self.name, what, call, taken=(0, 2, *more))
@@ -191,7 +198,9 @@ class XArm:
     def _begun(self, link: Link, path: Path, doing: str) -> Stream:
         link.require_heard()
         if link is not self._ready_link:
-            text, hint = f"{self.name} is not ready to move", "get it ready first: its settings may be lost"
+            why = self._lost_since(link)
+            text = f"{self.name} is not ready to move" + (f": it was lost, for {why}" if why else "")
+            hint = "get it ready first: its settings may be lost"
             raise PicoError(error("arm-refused", text, hint=hint, address=self.name))
         if self._stream and not self._stream.done.done():
             raise PicoError(error("arm-moves", f"{self.name} is moving already", address=self.name))
@@ -253,6 +262,7 @@ DRIVER = Driver(
     made=XArm,
     opened=_opened,
     closed=Link.close,
+    alive=Link.require_heard,
     address={
         "host": "the name or IPv4 address of the control box",
         "port": f"its control port, {CONTROL_PORT} as sold",

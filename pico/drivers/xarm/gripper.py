@@ -128,6 +128,7 @@ DRIVER = Driver(
     made=XArmGripper,
     opened=ARM.opened,
     closed=ARM.closed,
+    alive=ARM.alive,
     address=ARM.address,
     bus=ARM.bus,
     properties={},

@@ -90,6 +90,14 @@ def test_where_an_arm_can_not_tell_where_it_is_nothing_is_seen(setup: Setup) -> 
         seen_of(setup, arm=LOST)
 
 
+def test_an_arm_that_was_lost_and_found_again_is_told(setup: Setup) -> None:
+    park = setup.lab.robots["arm1"].park_joints
+    state = ArmState(joints=park, age=0.1, moving=False, enabled=False, lost="the control box closed the connection")
+    (problem,) = seen_of(setup, arm=state).problems
+    assert (problem.code, problem.address, problem.severity) == ("arm-lost", "arm1", "warning")
+    assert "arm1 was lost, for the control box closed the connection" in problem.summary
+
+
 def test_a_hand_holds_what_it_took_where_its_pads_are_as_far_apart_as_that_is_wide(setup: Setup) -> None:
     grasp = setup.type_of("lx_125").geometry.grasp
     assert grasp is not None

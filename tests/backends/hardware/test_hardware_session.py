@@ -47,7 +47,7 @@ class Bench:
         self.fails: dict[int, str] = {}
         """By the number of a leg, what the arm says there."""
         self.legs, self.stopped, self.halted = 0, False, False
-        self.misses = False
+        self.misses, self.lost = False, ""
         self.under_way = asyncio.Event()
         self.slow = False
 
@@ -69,7 +69,7 @@ class Bench:
         return await self.state()
 
     async def state(self) -> ArmState:
-        return ArmState(joints=self.joints, age=0.0, moving=False, enabled=True)
+        return ArmState(joints=self.joints, age=0.0, moving=False, enabled=True, lost=self.lost)
 
     async def halt(self) -> None:
         self.said.append("halt")
@@ -224,6 +224,15 @@ def test_a_part_is_picked_carried_and_put_down_and_seen_where_it_should_be(setup
     grip = next(i for i, said in enumerate(bench.said) if said == "fingers 30")
     assert words[grip - 1] == "follow" and words[grip + 1 : grip + 4] == ["follow"] * 3
     assert bench.said.count("follow op3: move lx_125") == bench.legs == 6
+
+
+def test_an_arm_that_was_lost_moves_nothing_before_it_is_got_ready_again(setup: Setup) -> None:
+    bench = Bench(setup)
+    bench.lost = "the control box reported nothing for 0.8 s"
+    result = executed(session(bench), move())
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.summary.startswith("op3, move of lx_125, failed: arm1 was lost, for the control box reported")
+    assert bench.said == [], "not even its fingers"
 
 
 def test_fingers_that_close_on_nothing_have_missed_and_the_arm_withdraws(setup: Setup) -> None:

@@ -142,6 +142,27 @@ def test_a_restarted_box_has_forgotten_and_does_not_move_before_it_is_told_again
     assert rig.emulator.box.settings.fence and rig.emulator.box.settings.load[0] == pytest.approx(0.8)
 
 
+@pytest.mark.parametrize("how", [pytest.param("freeze", marks=pytest.mark.slow), "kill", "restart"])
+def test_a_control_box_that_is_lost_while_nothing_is_asked_is_missed(rig: Rig, how: str) -> None:
+    """Nobody asks anything; who asks then is told, and nothing moves before it is got ready again."""
+    rig.do(rig.arm.state())
+    rig.bus.lost = ""
+    getattr(rig.emulator, how)()
+    for _ in range(6000):  # until it is missed
+        if rig.bus.lost:
+            break
+        rig.do(asyncio.sleep(0.01))
+    assert re.search(LOST, rig.bus.lost)
+    rig.emulator.thaw() if how == "freeze" else None
+    rig.emulator.restart() if how == "kill" else None
+    state = rig.do(rig.arm.state())
+    assert state.lost == rig.bus.lost and not state.enabled
+    with pytest.raises(PicoError, match="not ready to move: it was lost, for"):
+        rig.do(rig.arm.follow(*rig.turn(1, 0.1)))
+    ready = rig.do(rig.arm.recover(by_person=True))
+    assert ready.enabled and not ready.lost
+
+
 @pytest.mark.parametrize("kind", ["drop", *(pytest.param(k, marks=pytest.mark.slow) for k in ("truncate", "garbage"))])
 def test_an_answer_that_is_none_is_never_taken_for_one(rig: Rig, kind: str) -> None:
     said = rig.do(_meets(rig, lambda: rig.emulator.wire(kind, register=29)))

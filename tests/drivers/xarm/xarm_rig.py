@@ -52,7 +52,7 @@ def rigged(emulator: XArmEmulator, loop: asyncio.AbstractEventLoop, **settings: 
         driver="xarm.arm", address=emulator.address, identity={"serial": SERIAL},
         settings={"pace": PACE, "tool_z": 172.0, "load": 0.8, "load_z": 60.0} | settings,
     )  # fmt: skip
-    bus: Bus[Any] = Bus(lambda: DRIVER.opened(entry), DRIVER.closed)
+    bus: Bus[Any] = Bus(lambda: DRIVER.opened(entry), DRIVER.closed, DRIVER.alive)
     arm = XArm("arm1", entry, bus)
     hand = DeviceEntry(driver="xarm.gripper", address=emulator.address, identity={"serial": SERIAL})
     made = GRIPPER.made("hand", hand, bus)
