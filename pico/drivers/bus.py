@@ -90,7 +90,7 @@ class _Worker(Generic[H]):
             self._beat()
 
     def _beat(self) -> None:
-        """Let go of a link that is not alive any more, while nobody asks anything."""
+        """Let go of a link that is not alive any more."""
         link = self._link
         if self._alive and link is not None:
             try:
@@ -122,7 +122,10 @@ class _Worker(Generic[H]):
         return result
 
     def _open(self, link: H | None) -> None:
-        self._link = self._opened() if link is None else link
+        if link is not None:
+            self._beat()
+        if self._link is None:
+            self._link = self._opened()
 
     def _drop(self, why: BaseException | None = None) -> None:
         link, self._link = self._link, None
@@ -139,7 +142,8 @@ class _Worker(Generic[H]):
 class Bus(Generic[H]):
     """A link that one or more devices share: `opened` opens it, `closed` closes it, also while a call hangs in it; both
     may block. It is opened by the first call, and anew after each that failed otherwise than by a PicoError. `alive`
-    raises where the link is not any more, without asking over it; it is called every BEAT while nobody asks anything.
+    raises where the link is not any more, without asking over it: called before each call, and every BEAT while nobody
+    asks anything.
     `lost` says why the link before this one was lost, '' where none was."""
 
     def __init__(

@@ -13,7 +13,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from pico.diagnostics import PicoError, error
-from pico.drivers.bus import LONGEST, Bus
+from pico.drivers.bus import BEAT, LONGEST, Bus
 from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import ArmState, Identity
@@ -22,7 +22,7 @@ from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
 from pico.drivers.xarm.path import Path, checked
 from pico.drivers.xarm.settings import FENCE, PROPERTIES, differing, settings
-from pico.drivers.xarm.streaming import BRAKE, Stream
+from pico.drivers.xarm.streaming import BRAKE, How, Stream
 from pico.model.wiring import DeviceEntry
 
 T = TypeVar("T")
@@ -71,11 +71,10 @@ class XArm:
         path = checked(self.name, times, joints, self.settings)
         stream = await self._line.move("begin to move", lambda link: self._begun(link, path, doing))
         try:
-            how = await asyncio.shield(asyncio.wrap_future(stream.done))
+            how = await _ended(stream)
         except ConnectionError as exc:
             self._ready_link = _GONE
-            with suppress(PicoError):
-                await self._line.ask("be let go of", _lost)
+            stream.link.distrust(exc)
             during = f" during {doing}" if doing else ""
             text, hint = f"{self.name} was lost{during}: {exc}", "look at the arm; then get it ready again"
             raise PicoError(error("device-lost", text, hint=hint, address=self.name)) from exc
@@ -202,7 +201,7 @@ class XArm:
             text = f"{self.name} is not ready to move" + (f": it was lost, for {why}" if why else "")
             hint = "get it ready first: its settings may be lost"
             raise PicoError(error("arm-refused", text, hint=hint, address=self.name))
-        if self._stream and not self._stream.done.done():
+        if self._stream and self._stream.link is link and not self._stream.done.done():
             raise PicoError(error("arm-moves", f"{self.name} is moving already", address=self.name))
         if fault := link.fault():
             raise PicoError(told(self.name, fault, doing))
@@ -247,9 +246,17 @@ def _reported(link: Link, wrong: Callable[[], T]) -> T:
     return found
 
 
-def _lost(link: Link) -> None:
-    """Have the bus let go of a link that was lost: the next call opens another."""
-    raise ConnectionError("it was lost")
+async def _ended(stream: Stream) -> How:
+    """Return how a stream ended; raises ConnectionError as soon as the link is silent, for a request in it may hang."""
+    done = asyncio.wrap_future(stream.done)
+    done.add_done_callback(lambda ended: ended.exception())  # also where nobody waits for it any more
+    while not (await asyncio.wait([done], timeout=BEAT))[0]:
+        try:
+            stream.link.require_heard()
+        except ConnectionError:
+            stream.end("stopped")
+            raise
+    return done.result()
 
 
 def _opened(entry: DeviceEntry) -> Link:

@@ -30,6 +30,7 @@ class Link:
         self.arm = arm
         self._news = threading.Condition()
         self._heard, self._count = time.monotonic(), 0
+        self._wrong = ""
         arm.register_report_callback(self._hear)
 
     @classmethod
@@ -65,8 +66,14 @@ class Link:
                 if not self._news.wait_for(lambda before=before: self._count > before, within):  # type: ignore[misc]
                     raise ConnectionError(f"the control box reported nothing for {within:g} s")
 
+    def distrust(self, why: Exception) -> None:
+        """Count as lost from now on."""
+        self._wrong = str(why) or type(why).__name__
+
     def require_heard(self) -> None:
         """Raise ConnectionError where the link is silent, whatever the library says of it."""
+        if self._wrong:
+            raise ConnectionError(self._wrong)
         if not self.arm.connected:
             raise ConnectionError("the control box closed the connection")
         if self.age > SILENT:

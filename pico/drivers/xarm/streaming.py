@@ -47,7 +47,7 @@ class Stream:
         self.done: Future[How] = Future()
         self.sent = 0
         """Set-points that were taken."""
-        self._name, self._link, self._path, self._doing, self._pace = name, link, path, doing, pace
+        self._name, self.link, self._path, self._doing, self._pace = name, link, path, doing, pace
         self._wanted: How = "moves"
         self._run: Callable[[], None] = self._follow if set_points else self._move
         self._thread = threading.Thread(target=self._work, daemon=True, name=f"{name} moves")
@@ -93,22 +93,22 @@ class Stream:
         self._arrive(self._path.at(place))
 
     def _set(self, joints: list[float]) -> None:
-        self._link.require_heard()
-        arm = self._link.arm
-        self._link.ask(
+        self.link.require_heard()
+        arm = self.link.arm
+        self.link.ask(
             self._name, "take a set-point", lambda: arm.set_servo_angle_j(joints, is_radian=True), doing=self._doing
         )
         self.sent += 1
 
     def _move(self) -> None:
         """Drive from corner to corner, one move at a time: the box would go on with what is queued if we were lost."""
-        path, arm = self._path, self._link.arm
+        path, arm = self._path, self.link.arm
         corners = path.corners()
         for first, last in pairwise(corners):
             stretch = slice(first, last + 1)
             turns = np.abs(np.diff(path.joints[stretch], axis=0)) / np.diff(path.times[stretch])[:, None]
             end, speed = path.joints[last].tolist(), max(0.01, float(turns.max()))
-            self._link.ask(
+            self.link.ask(
                 self._name,
                 "move",
                 lambda end=end, speed=speed: arm.set_servo_angle(angle=end, speed=speed, mvacc=10.0, is_radian=True),  # type: ignore[misc]
@@ -121,21 +121,21 @@ class Stream:
 
     def _await_rest(self) -> None:
         """Wait until the box's own move is over, or is to end."""
-        while (state := self._link.state()) in (0, 1, 3):
-            self._link.require_heard()
+        while (state := self.link.state()) in (0, 1, 3):
+            self.link.require_heard()
             if self._wanted != "moves":
-                self._link.ask(self._name, "come to rest", lambda: self._link.arm.set_state(6))
+                self.link.ask(self._name, "come to rest", lambda: self.link.arm.set_state(6))
             time.sleep(0.01)
         if state > 3:
-            self._link.ask(self._name, "arrive", lambda: -9, doing=self._doing)
+            self.link.ask(self._name, "arrive", lambda: -9, doing=self._doing)
 
     def _arrive(self, end: list[float]) -> None:
         """Wait until the joints are where they were sent; raises PicoError where they do not come there."""
         until = time.monotonic() + _ARRIVING
-        while max(abs(a - b) for a, b in zip(self._link.joints(), end, strict=True)) > NEAR:
-            self._link.require_heard()
-            if fault := self._link.fault():
-                self._link.ask(self._name, "arrive", lambda fault=fault: fault, taken=(), doing=self._doing)  # type: ignore[misc]
+        while max(abs(a - b) for a, b in zip(self.link.joints(), end, strict=True)) > NEAR:
+            self.link.require_heard()
+            if fault := self.link.fault():
+                self.link.ask(self._name, "arrive", lambda fault=fault: fault, taken=(), doing=self._doing)  # type: ignore[misc]
             if time.monotonic() > until:
                 text = (
                     f"{self._name} did not come to where it was sent{f' during {self._doing}' if self._doing else ''}"

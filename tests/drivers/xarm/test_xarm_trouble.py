@@ -46,7 +46,7 @@ async def _meets(rig: Rig, trouble: Callable[[], object], seconds: float = 20.0)
     """What a motion raises that meets a trouble on its way."""
     path = rig.turn(1, 1.0, seconds)
     moving = asyncio.create_task(rig.arm.follow(*path, doing="op3: move lx_100"))
-    while abs(rig.emulator.joints[0] - path[1][0][0]) < 0.02:
+    while abs(rig.emulator.joints[0] - path[1][0][0]) < 0.02 and not moving.done():
         await asyncio.sleep(0.002)
     trouble()
     with pytest.raises(PicoError) as failed:
