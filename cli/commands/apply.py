@@ -33,6 +33,7 @@ Record = Annotated[
     typer.Option("--record", metavar="FILE", help="Film it: FILE.mp4 or FILE.gif."),
 ]
 
+Detach = Annotated[bool, typer.Option("--detach", help="Leave it to the bench, and give the prompt back.")]
 Refresh = Annotated[bool, typer.Option("--refresh", help="Plan to the goal of a saved plan anew.")]
 
 
@@ -49,6 +50,7 @@ def apply(
     record: Record = None,
     stop_on_error: StopOnError = False,
     refresh: Refresh = False,
+    detach: Detach = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Show the plan, ask, and move what it says.
@@ -56,7 +58,8 @@ def apply(
     Without an argument the bench becomes equal to the manifest. With names after `--` only these components or single
     tunables do, and the manifest stays as it is. With --align goals of the lab that are not aligned then are sought at
     the end; the exit code is 6 where one is not met. A saved plan is refused (exit code 4) where what it stands on has
-    changed since. With --json: the plan, each event and the report, a line each.
+    changed since. `pico runs attach` follows what is left to the bench. With --json: the plan, each event and the
+    report, a line each.
 
     Examples:
       pico apply e1
@@ -84,7 +87,11 @@ def apply(
         bench.plans.require_fresh(plan)
     elif refresh:
         raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
-    code = approve(session, bench, plan, auto_approve, record, stop_on_error=stop_on_error)
+    if detach and record:
+        raise PicoError(
+            error("usage", "a run that is left to the bench is not filmed", hint="leave out one of the two")
+        )
+    code = approve(session, bench, plan, auto_approve, record, detach=detach, stop_on_error=stop_on_error)
     if not code and bench.plans.leaves_manifest(plan):
         where = plan.target.revision
         session.say(f"The manifest is another: `pico apply` goes back to it, `pico checkout {where}` brings it along.")

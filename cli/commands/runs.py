@@ -80,6 +80,42 @@ def show(context: typer.Context, run: Run = None) -> None:
 
 
 @app.command()
+def attach(
+    context: typer.Context,
+    run: Annotated[
+        str | None,
+        typer.Argument(metavar="RUN", help="The beginning or end of its id; without it the one that goes on."),
+    ] = None,
+) -> int:
+    """Follow a run that the bench has under way, whoever began it.
+
+    From its first event to its report, with the exit code of that. Ctrl-C lets go of it: it goes on, and `pico stop`
+    ends it. With --json: each event and the report, a line each.
+
+    Examples:
+      pico runs attach
+      pico runs attach 7b7b54 --bench shel/bench1
+    """
+    from ..runs.running import Screen
+    from ..views import report as report_view
+    from ..views.run import Progress
+
+    session = Session.of(context)
+    going = session.bench().moves.follow(run)
+    screen = Screen(session, Progress(going.plan))
+    try:
+        for event in going:
+            screen.show(event)
+    except KeyboardInterrupt:
+        screen.clear()
+        session.say(f"Run {going.id} goes on: `pico stop` ends it, `pico runs attach` follows it again.")
+        raise
+    session.show(report_view, going.report)
+    session.tell(going.report.diagnostics)
+    return int(going.report.exit_code)
+
+
+@app.command()
 def compare(
     context: typer.Context,
     a: Annotated[str, typer.Argument(metavar="A", help="The beginning of a run's id.")],

@@ -11,6 +11,7 @@ from pico.policy.consent import asked_about, lights
 
 from ..session import Session
 from ..terminal.waiting import waiting
+from ..views import left as left_view
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
@@ -30,9 +31,11 @@ FEW = 3
 
 
 def approve(
-    session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, **options: Any
-) -> int:
-    """Show a plan, ask, run it, and return the exit code; `options` are those of `Moves.run`."""
+    session: Session, bench: Bench, plan: Plan, auto_approve: bool, record: Path | None = None, *,
+    detach: bool = False, **options: Any,
+) -> int:  # fmt: skip
+    """Show a plan, ask, run it, or leave it to the bench (`detach`), and return the exit code; `options` are those of
+    `Moves.run`."""
     if code := show(
         session, bench, plan, auto_approve, head=bench.history.head_name(), goal=bench.history.goal_name(plan)
     ):
@@ -42,6 +45,9 @@ def approve(
         return _expected(session, bench, plan) if plan.reached else ExitCode.ERROR
     if code := declined(session, bench, plan, auto_approve):
         return code
+    if detach:
+        session.show(left_view, bench.moves.leave(plan, **options))
+        return ExitCode.DONE
     return execute(session, bench, plan, record, **options)
 
 

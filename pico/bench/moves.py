@@ -10,13 +10,15 @@ from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.diagnostics import PicoError
+from pico.diagnostics import PicoError, error
+from pico.edge.network.opening import line_of
 from pico.model.plan import Plan
 
 if TYPE_CHECKING:
     from pico.bench.running.execution import Execution
     from pico.drawing.film.film import Caption
     from pico.model.trace.report import RunReport
+    from pico.runs.memory import Memory
     from pico.twin.snapshot import Recording
 
 
@@ -42,6 +44,46 @@ class Moves:
         if opened.recording is not None:
             options |= {"within": opened.recording, "run_id": new_run_id()}
         return Execution(plan, opened.edge, opened.thread, named, **options)
+
+    def leave(self, plan: Plan, **options: Any) -> str:
+        """Have a plan run by the process that serves the bench, and leave it to that; return the run's id. Raises
+        PicoError where this process is the bench, and as `run` does."""
+        if line_of(self.opened.root, self.opened.far) is None:
+            text = "this process is the bench: what it runs ends with it"
+            hint = "`pico edge` in another terminal serves it, or `--bench LAB/BENCH` means one that is"
+            raise PicoError(error("detach", text, hint=hint))
+        return self.run(plan, **options).leave()
+
+    def follow(self, word: str | None = None) -> Execution:
+        """Return a run that the bench has under way, or had lately, whose id begins or ends with `word` (None: the one
+        that goes on): iterate over it for its events, then read its `report`. It goes on whoever looks on. Raises
+        PicoError where there is none."""
+        from pico.bench.running.execution import Execution
+        from pico.model.plan import plan_from_json
+
+        memory = self.opened.edge.memory
+        run = self._meant(memory, word)
+        document = memory.document(run) if memory else None
+        if document is None:
+            raise PicoError(error("no-run", f"nothing is known of how run {run} began", hint="`pico runs`"))
+        plan = plan_from_json(document)
+        return Execution(plan, self.opened.edge, self.opened.thread, run_id=run, follows=True)
+
+    def _meant(self, memory: Memory | None, word: str | None) -> str:
+        if word is None:
+            going = self.opened.wait(self.opened.edge.unended())
+            if going is None:
+                hint = "`pico runs` lists those that are over"
+                raise PicoError(error("no-run", "no run goes on", hint=hint))
+            return going
+        known = [run.run for run in memory.runs()] if memory else []
+        found = [run for run in known if run.startswith(word) or run.endswith(word)]
+        if len(found) != 1:
+            text = (
+                f"{len(found)} runs are called {word[:40]}" if found else f"there is no run {word[:40]} on this bench"
+            )
+            raise PicoError(error("no-run", text, hint="`pico runs` lists them"))
+        return found[0]
 
     def apply(self, what: Plan | str | None = None) -> RunReport:
         """Run a plan, or plan to a revision (the manifest for None) and run that; return what became of it.

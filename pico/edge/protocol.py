@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal, Protocol
 
 from pico.backends.device import Capabilities
 from pico.backends.world import World
+from pico.diagnostics import PicoError
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -28,6 +29,10 @@ if TYPE_CHECKING:
     from pico.model.trace.unattended import Left, Terms
     from pico.runs.memory import Memory
     from pico.twin.snapshot import Snapshot
+
+
+class Cut(PicoError):
+    """The line to an edge is cut: what it does goes on, and may be asked of again once it is there."""
 
 
 @record

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from collections.abc import Callable
 from contextlib import chdir
 from pathlib import Path
@@ -13,6 +14,8 @@ import pytest
 from commanding import Brought
 
 from pico.history.git.attributes import install
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "edge"))  # for what serves benches there
 
 
 @pytest.fixture(scope="session")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.running.loop import HEED, LoopThread
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.edge.protocol import Edge, Job
+from pico.edge.protocol import Cut, Edge, Job
 from pico.edge.running import new_run_id
 from pico.model.plan import Plan
 from pico.model.trace.event import Event
@@ -44,10 +44,12 @@ class Execution:
         wait: float = 0.0,
         speed: float | None = None,
         within: str | None = None,
+        follows: bool = False,
     ) -> None:
         """`thread`: where the edge lives. `named`: what the goal is called once the run is over. `recording`: gets what
         a film of it shows. `resumes`: the run that goes on under its id. `run_id`: of the new one.
-        `stop_on_error`, `wait`, `speed`, `within`: see `pico.edge.protocol.Job`.
+        `stop_on_error`, `wait`, `speed`, `within`: see `pico.edge.protocol.Job`. `follows`: it was begun elsewhere
+        under `run_id`, and goes on whoever looks on.
         """
         self.plan, self.id = plan, resumes or run_id or new_run_id()
         self._edge, self._thread, self._recording = edge, thread, recording
@@ -60,6 +62,7 @@ class Execution:
         self._queue: queue.SimpleQueue[Event | RunReport | BaseException] = queue.SimpleQueue()
         self._report: RunReport | None = None
         self._asked = self._begun = self._cancelled = self.over = False
+        self._follows = follows
 
     @property
     def report(self) -> RunReport:
@@ -90,6 +93,12 @@ class Execution:
         if not self._asked:
             self._asked = True
             self._thread.submit(self._pump())
+
+    def leave(self) -> str:
+        """Have the edge start it, and leave it to that; return its id. Raises PicoError, before anything moves, where
+        the plan must not be run."""
+        self._asked = self.over = True
+        return self._thread.wait(self._edge.start(self._job, self.id))
 
     def news(self) -> list[Event]:
         """Return the events since the last time, without waiting; raises PicoError as iterating does."""
@@ -126,12 +135,16 @@ class Execution:
         """Start the run, hand on its events, and return what became of it."""
         if self._cancelled:
             raise PicoError(error("interrupted", "interrupted; nothing has moved"), ExitCode.INTERRUPTED)
-        await self._edge.start(self._job, self.id)
-        self._begun, over = True, False
+        if not self._follows:
+            await self._edge.start(self._job, self.id)
+        self._begun, over = True, self._follows
         try:
             async for event in self._edge.events(self.id):
-                over = event.kind == "run_finished"
+                over |= event.kind == "run_finished"
                 self._queue.put(event)
+        except Cut:
+            over = True  # a line that is cut ends no run
+            raise
         finally:
             if not over:
                 await self._edge.cancel(self.id)

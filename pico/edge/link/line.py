@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from pico.attachment import require_attached
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import error
 from pico.edge.link import wire
+from pico.edge.protocol import Cut
 
 ANSWER = 60.0
 """Seconds in which an edge answers what it does not have to move for."""
@@ -43,10 +44,10 @@ class Line(Protocol):
         ...
 
 
-def gone(exc: Exception) -> PicoError:
+def gone(exc: Exception) -> Cut:
     """Return what is said where an edge does not answer."""
     hint = "its run goes on by itself, if it lives; `pico status` shows what it did"
-    return PicoError(error("link", f"the edge does not answer: {str(exc) or 'nothing came in time'}", hint=hint))
+    return Cut(error("link", f"the edge does not answer: {str(exc) or 'nothing came in time'}", hint=hint))
 
 
 def _value(name: str, data: bytes) -> Any:

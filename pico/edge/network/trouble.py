@@ -8,11 +8,12 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.network.remotes import Far
+from pico.edge.protocol import Cut
 
 EXTRA = "pip install 'pico-lab[remote]'"
 
 
-class Gone(PicoError):
+class Gone(Cut):
     """The line to a coordinator is cut; what was asked may be asked again once it is there."""
 
 
