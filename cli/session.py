@@ -18,7 +18,7 @@ from pico.diagnostics import PicoError, error
 from .garbage import loaded
 from .terminal.output import write
 from .terminal.waiting import waiting
-from .views.style import inert_json
+from .views.style import inert_json, paint
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -79,6 +79,8 @@ class Session:
 
         bench = Bench.open(self.folder, backend=self.said_backend, fidelity=fidelity, speed=speed, bench=self.at)
         loaded()
+        if bench.far is not None and not self.json:
+            write(sys.stderr, paint("dim", f"on {bench.far.said}"))
         if self.context is not None:
             self.context.call_on_close(bench.close)
             self.context.call_on_close(lambda: self.tell(bench.folder.recovered))  # while a guard was still at it

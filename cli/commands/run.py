@@ -35,6 +35,7 @@ Until = Annotated[str, typer.Option("--until", metavar="STEP", help="Stop before
 Resume = Annotated[bool, typer.Option("--resume", help="Go on with what was cut short last, of RECIPE if named.")]
 JUnit = Annotated[Path | None, typer.Option("--junit", metavar="FILE", help="Write JUnit XML to FILE.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the steps as far as they are known; move nothing.")]
+Detach = Annotated[bool, typer.Option("--detach", help="Leave it to a process of its own, and give the prompt back.")]
 Unattended = Annotated[
     bool, typer.Option("--unattended", help="Nobody will be there: hold it to what it states of that.")
 ]
@@ -51,6 +52,7 @@ def run(
     seed: Seed = None,
     fidelity: Fidelity = None,
     junit: JUnit = None,
+    detach: Detach = False,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
@@ -58,25 +60,19 @@ def run(
 
     It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down
     when it begins and when it is done: after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was,
-    measures nothing twice and loses nothing. An assertion that fails ends it with exit code 6. With --json: a line for
-    each step, and one for the end.
+    measures nothing twice and loses nothing. With --detach it goes on by itself, and `pico runs attach` follows it. An
+    assertion that fails ends it with exit code 6. With --json: a line for each step, and one for the end.
 
     Examples:
       pico run tilt_scan -p tilts='[0, 15, 30]'
       pico run recipes/tilt_scan.yaml --dry-run --seed 1
-      pico run --resume
     """
     from pico.recipes.recipes import Recipes
 
     session = Session.of(context)
-    if recipe is None and not resume:
-        hint = "`pico run RECIPE`, or `pico run --resume` for the one that was cut short"
-        raise PicoError(error("usage", "name a recipe, or say --resume", hint=hint))
+    _require_whole(recipe, resume, given, seed, detach and bool(resume or dry_run or until or junit))
     if junit:
         _require_place(session.folder / junit)
-    if resume and (seed is not None or given):
-        text = "what was cut short goes on with the world and the parameters that it began with"
-        raise PicoError(error("usage", text, hint="`pico run --resume` takes neither --seed nor -p"))
     if not dry_run and not resume:
         session.require_answer(auto_approve)
     bench = session.bench(fidelity, writing=not dry_run)
@@ -96,13 +92,42 @@ def run(
         return int(ahead.exit_code)
     if until:
         recipes.require_step(found, until, ahead)
+    if detach:
+        recipes.require_alone(found)
     alone = _alone(session, recipes, found, arguments, unattended)
     if not _agreed(session, found, ahead, auto_approve, seed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
     if seed is not None:
         bench.sim.reset(seed)
+    if detach:
+        return _leave(session, recipes, found, arguments, alone)
     return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone, junit)
+
+
+def _require_whole(recipe: str | None, resume: bool, given: list[str] | None, seed: int | None, apart: bool) -> None:
+    """Raise PicoError for options that do not go together; `apart`: it is to be left to a process of its own, and
+    something else that needs this one."""
+    if recipe is None and not resume:
+        hint = "`pico run RECIPE`, or `pico run --resume` for the one that was cut short"
+        raise PicoError(error("usage", "name a recipe, or say --resume", hint=hint))
+    if resume and (seed is not None or given):
+        text = "what was cut short goes on with the world and the parameters that it began with"
+        raise PicoError(error("usage", text, hint="`pico run --resume` takes neither --seed nor -p"))
+    if apart:
+        hint = "`pico run RECIPE --detach`, and `pico runs attach` to follow it"
+        raise PicoError(error("usage", "--detach goes with none of --resume, --dry-run, --until, --junit", hint=hint))
+
+
+def _leave(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], alone: bool) -> int:
+    """Begin a run of a recipe, and leave it to a process of its own."""
+    from ..runs.leaving import leave
+    from ..views import left
+
+    log = recipes.begin(recipe, arguments)
+    leave(session, recipes.bench, log, alone)
+    session.show(left, log.about.id, by="in a process of its own on this machine")
+    return int(ExitCode.DONE)
 
 
 def _go_on(

@@ -87,7 +87,7 @@ def attach(
         typer.Argument(metavar="RUN", help="The beginning or end of its id; without it the one that goes on."),
     ] = None,
 ) -> int:
-    """Follow a run that the bench has under way, whoever began it.
+    """Follow a run that the bench has under way, whoever began it, or a recipe that goes on by itself.
 
     From its first event to its report, with the exit code of that. Ctrl-C lets go of it: it goes on, and `pico stop`
     ends it. With --json: each event and the report, a line each.
@@ -96,12 +96,20 @@ def attach(
       pico runs attach
       pico runs attach 7b7b54 --bench shel/bench1
     """
+    from ..runs.leaving import follow, left
     from ..runs.running import Screen
     from ..views import report as report_view
     from ..views.run import Progress
 
     session = Session.of(context)
-    going = session.bench().moves.follow(run)
+    bench = session.bench()
+    if (path := left(bench, run)) is not None:
+        try:
+            return follow(session, path)
+        except KeyboardInterrupt:
+            session.say(f"\nRun {path.stem} goes on: `pico runs attach` follows it again.")
+            raise
+    going = bench.moves.follow(run)
     screen = Screen(session, Progress(going.plan))
     try:
         for event in going:

@@ -1,15 +1,15 @@
-"""A run that is left to the bench."""
+"""A run that is left to the bench, or to a process of its own."""
 
 from __future__ import annotations
 
 from typing import Any
 
 
-def text(run: str) -> str:
+def text(run: str, *, by: str = "at the bench") -> str:
     """Return which run it is, and how it is followed and ended."""
-    return f"Run {run} goes on at the bench: `pico runs attach` follows it, `pico stop` ends it."
+    return f"Run {run} goes on {by}: `pico runs attach` follows it, `pico stop` ends it."
 
 
-def data(run: str) -> dict[str, Any]:
+def data(run: str, **_: Any) -> dict[str, Any]:
     """Return schema `pico.left/v1`: the `run`."""
     return {"schema": "pico.left/v1", "run": run}

@@ -145,6 +145,17 @@ def test_a_person_is_asked_only_where_one_is(turning: Path, pico: Pico) -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.slow
+def test_one_that_is_left_to_itself_is_followed_to_its_end(turning: Path, pico: Pico) -> None:
+    left = pico("--json", "run", "turning", "--yes", "--detach")
+    assert left.code == 0, left.err
+    followed = pico("runs", "attach", left.data["run"])
+    assert followed.code == 0 and "turning: done" in followed.out, followed.out + followed.err
+    assert "20" in pico("get", "p1.angle").out and "no run goes on" in pico("runs", "attach").err
+    refused = pico("run", "turning", "--yes", "--detach", "--dry-run")
+    assert refused.code == 1 and "--detach goes with none" in refused.err
+
+
 def test_a_killed_recipe_goes_on_where_it_was(turning: Path, pico: Pico) -> None:
     command = [sys.executable, "-c", "from pico_cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"]
     words = ["run", "turning", "-p", "angles={from: 1, to: 30, step: 1}", "--yes"]
