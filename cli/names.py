@@ -22,14 +22,13 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "token": "programs at a served bench",
     "gui": "PICO in a browser",
 }
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices", "edge",
-    "commission", "serve", "remote", "login", "lease",
+    "commission", "serve", "remote", "login", "lease", "token",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

@@ -29,7 +29,7 @@ Names = Annotated[
 
 
 def serve(
-    context: typer.Context, folder: Folder = None, host: Host = "127.0.0.1", port: Port = 7426,
+    context: typer.Context, folder: Folder = None, host: Host = "127.0.0.1", port: Port = 8700,
     certificate: Certificate = None, key: Key = None, name: Names = None,
 ) -> None:  # fmt: skip
     """Serve benches to people elsewhere, until Ctrl-C or SIGTERM: the coordinator of a laboratory.

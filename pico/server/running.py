@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import asyncio
+import signal
 import socket
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -44,4 +49,20 @@ def server(app: Any, certificate: Path | None = None, key: Path | None = None) -
     except (OSError, ValueError) as exc:
         text = f"the certificate {certificate} can't be used: {exc}"
         raise PicoError(error("tls", text, hint="`--certificate` and `--key` name files in PEM form")) from exc
-    return uvicorn.Server(config)
+    return _Server(config)
+
+
+class _Server(uvicorn.Server):
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Let SIGINT and SIGTERM end the serving, and nothing else: it has ended then as it should."""
+        loop, taken = asyncio.get_running_loop(), []
+        if threading.current_thread() is threading.main_thread():
+            taken = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+        for number in taken:
+            loop.add_signal_handler(number, self.handle_exit, number, None)
+        try:
+            yield
+        finally:
+            for number in taken:
+                loop.remove_signal_handler(number)

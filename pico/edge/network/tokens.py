@@ -26,6 +26,11 @@ def keep_token(url: str, token: str) -> None:
     _write({**_read(), url.rstrip("/"): token})
 
 
+def places() -> tuple[str, ...]:
+    """Return the addresses of the coordinators that there are tokens for; raises PicoError."""
+    return tuple(_read())
+
+
 def tokens_file() -> Path:
     """Return where the tokens of this user are."""
     base = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"

@@ -10,8 +10,8 @@ ADMIN = "admin"
 
 
 def first_code(people: People) -> str | None:
-    """Return a code for the first admin, who is made with it; None where somebody is known already."""
-    if people.anybody():
+    """Return a code for the first admin, who is made with it; None once anybody was let in."""
+    if people.entered():
         return None
     people.settled(ADMIN, [Right("*", "admin")], by=ADMIN)
     return people.issued(ADMIN, CODE_LASTS, by=ADMIN, kind="code", label="the first").secret

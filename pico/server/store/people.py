@@ -32,10 +32,10 @@ class People:
     def __init__(self, database: Database) -> None:
         self._database = database
 
-    def anybody(self) -> bool:
-        """Return whether there is a principal at all."""
+    def entered(self) -> bool:
+        """Return whether anybody has ever had a token."""
         with self._database.reading() as connection:
-            return connection.execute(select(principals.c.name).limit(1)).first() is not None
+            return connection.execute(select(tokens.c.id).where(tokens.c.kind == "token").limit(1)).first() is not None
 
     def listed(self) -> tuple[dict[str, Any], ...]:
         """Return the principals with their rights."""
