@@ -18,11 +18,11 @@ from pico.server.guard.addresses import LOOPBACK
 from pico.server.guard.gatekeeper import Gatekeeper
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import document, failure
-from pico.server.routes import events, leases, people
+from pico.server.routes import events, labs, leases, people
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
 
-ROUTERS = (people.router, leases.router, events.router)
+ROUTERS = (people.router, leases.router, events.router, labs.router)
 TICK = 0.5
 """How often leases that are over are looked for [s]."""
 Part = Callable[[FastAPI], AbstractAsyncContextManager[None]]

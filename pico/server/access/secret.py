@@ -3,6 +3,7 @@ were."""
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import secrets
 
@@ -23,6 +24,11 @@ def new_secret(kind: str) -> str:
 
 
 def bearer(header: str | None) -> str:
-    """Return the token of an Authorization header, empty where there is none."""
+    """Return the token of an Authorization header, empty where there is none; of git it is the password."""
     scheme, _, token = (header or "").partition(" ")
+    if scheme.lower() == "basic":
+        try:
+            return base64.b64decode(token.strip(), validate=True).decode().partition(":")[2]
+        except ValueError:
+            return ""
     return token.strip() if scheme.lower() == "bearer" else ""

@@ -14,6 +14,8 @@ BODY = 1 << 20
 """Bytes that a body may have."""
 LONG_BODY = 16 << 20
 """Bytes of one that carries a plan or a lab."""
+DATA = 64 << 20
+"""Bytes of a push, or of large data."""
 _LONG = ("/calls/start", "/calls/open", "/calls/adopt")
 _HEADERS = (
     (b"x-content-type-options", b"nosniff"),
@@ -59,6 +61,8 @@ class Gatekeeper:
 
 def longest(path: str) -> int:
     """Return how many bytes the body of a request to `path` may have."""
+    if path.endswith("/git-receive-pack") or "/objects/" in path:
+        return DATA
     return LONG_BODY if path.endswith(_LONG) else BODY
 
 

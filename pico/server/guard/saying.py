@@ -15,18 +15,20 @@ STATUS: Mapping[str, int] = {
     "unknown-bench": 404,
     "unknown-principal": 404,
     "unknown-token": 404,
+    "unknown-lab": 404,
+    "unknown-data": 404,
     "limit": 429,
     "too-long": 413,
     "away": 503,
     "internal": 500,
 }
-"""The status of what is wrong, by its code; 409 for a bench that somebody else has, 400 for all else."""
+"""The status of what is wrong, by its code; 409 for a bench that somebody else has and what is stale, else 400."""
 _CODES = {403: "forbidden", 404: "unknown", 413: "too-long", 421: "wrong-host", 429: "limit"}
 
 
 def status_of(exc: PicoError) -> int:
     """Return the status with which an error is answered."""
-    if exc.exit_code == ExitCode.LOCKED:
+    if exc.exit_code in (ExitCode.LOCKED, ExitCode.STALE):
         return 409
     if exc.exit_code == ExitCode.DENIED:
         return 403

@@ -44,7 +44,7 @@ class Guarded(APIRoute):
                     request.state.principal = principal
                 return await answer(request)
             except PicoError as exc:
-                return refusal(exc)
+                return refusal(exc, "Basic realm=PICO" if "/git/" in request.url.path else "Bearer")
 
         return admitted
 
@@ -59,10 +59,10 @@ def needs(role: str) -> dict[str, Any]:
     return {"openapi_extra": {ROLE: role} | ({} if role == "public" else {"security": [{"bearer": []}]})}
 
 
-def refusal(exc: PicoError) -> Response:
-    """Return the answer that says what went wrong."""
+def refusal(exc: PicoError, scheme: str = "Bearer") -> Response:
+    """Return the answer that says what went wrong, and by which scheme one is to say who one is."""
     status = status_of(exc)
-    return JSONResponse(failure(exc), status, {"www-authenticate": "Bearer"} if status == 401 else None)
+    return JSONResponse(failure(exc), status, {"www-authenticate": scheme} if status == 401 else None)
 
 
 def books(app: FastAPI | Any) -> Books:

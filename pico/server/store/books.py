@@ -21,10 +21,10 @@ Listener = Callable[[str, Turn], None]
 
 
 class Books:
-    """The books of a coordinator over its database."""
+    """The books of a coordinator over its database; `folder`: what lies beside it, repositories and large data."""
 
-    def __init__(self, database: Database) -> None:
-        self.database = database
+    def __init__(self, database: Database, folder: Path) -> None:
+        self.database, self.folder = database, folder
         self.leases, self.people = Leases(database), People(database)
         self._writer = ThreadPoolExecutor(1, "pico-books")
         self._listeners: list[Listener] = []
@@ -71,4 +71,4 @@ def books_in(folder: Path, clock: Clock | None = None) -> Books:
         path = folder / "coordinator.sqlite"
         path.touch(mode=0o600)
     url = f"sqlite:///{path}"
-    return Books(Database(url, clock) if clock else Database(url))
+    return Books(Database(url, clock) if clock else Database(url), folder)

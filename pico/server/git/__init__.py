@@ -1,0 +1,1 @@
+"""The bare repository of each lab at the coordinator."""
