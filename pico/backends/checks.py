@@ -123,6 +123,14 @@ def misplaced(setup: Setup, name: str, pose: Pose, goal: Pose, slot: str | None)
     return error("misplaced", text, hint=_AGAIN, address=name)
 
 
+def require_back(setup: Setup, name: str, part: ObservedComponent, start: Pose) -> None:
+    """Raise Failed where a tool does not stand where it stood."""
+    if part.presence != "seen" or part.pose is None:
+        raise not_standing(name, part.presence)
+    if wrong := misplaced(setup, name, part.pose, start, None):
+        raise Failed(wrong)
+
+
 def off(pose: Pose, goal: Pose, before: Sequence[Pose] = ()) -> dict[str, Any]:
     """Return what a placement measured of itself: how far off its goal a part stands [mm, deg], and where it `stood` at
     first, each time before it was set right."""

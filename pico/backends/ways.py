@@ -12,6 +12,7 @@ from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.motion.zones import enters, shared_zones
+from pico.planning.routines import Routine, carried, ways_of
 
 
 def elsewhere(seen: Observation, robot: str) -> dict[str, Joints]:
@@ -49,6 +50,19 @@ def parking(setup: Setup, motion: Motion, seen: Observation, robot: str) -> Move
     """Return the way of an arm to its park pose."""
     joints = seen.robots[robot].joints
     return motion.park(robot, joints, checks.standing(setup, seen), elsewhere(seen, robot))
+
+
+def using(
+    setup: Setup, motion: Motion, seen: Observation, operation: Operation, routine: Routine
+) -> tuple[Pose, tuple[MovePath, ...]]:
+    """Return where the tool of a routine stands, and the ways of the arm of its operation; raises Failed where the hand
+    is not free, and for what is in the way."""
+    robot, tool = operation.robot or "", routine.tool
+    start = checks.require_ready(setup, seen, carried(operation, tool, Pose(0, 0)), checks.standing_pose(seen, tool))
+    found = ways_of(setup, motion, seen, robot, routine, checks.standing(setup, seen))
+    if isinstance(found, Blocked):
+        raise checks.blocked(operation.component, found)
+    return start, found
 
 
 class Zones:

@@ -7,7 +7,7 @@ again only when more components of a type stand within reach than ever before.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -20,7 +20,7 @@ from pico.motion import gantry
 from pico.motion.reach import check_grip, check_height, check_reach, check_table, check_tether
 from pico.motion.stability import check_stability
 from pico.motion.travel import Travel
-from pico.motion.types import Blocked, Joints, MovePath, StandingObject
+from pico.motion.types import Blocked, Joints, MovePath, StandingObject, Waypoint
 
 if TYPE_CHECKING:
     from pico.motion.moves import Move
@@ -169,6 +169,32 @@ class ArmMotion:
         scene.place_robots(elsewhere)
         path = kind(scene, component, geometry, start, goal, jaws, near, joints).find()
         return self._twice(path, Task(component, geometry, start, goal, jaws), near, elsewhere)
+
+    def use(
+        self, robot: str, tool: str, start: Pose, points: Sequence[Waypoint], standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> tuple[MovePath, ...] | Blocked:  # fmt: skip
+        """See `Motion.use`."""
+        found, arm = self.reach(robot, tool, start, 0.0), self.setup.lab.robots[robot]
+        if found or arm.model == "gantry":
+            return found or Blocked("reach", f"{robot} is a gantry, which uses no tools yet")
+        from pico.motion.recheck import Task
+        from pico.motion.using import Using
+
+        geometry = self.setup.type_of(tool).geometry
+        assert geometry.grasp is not None  # `reach` asked
+        near, elsewhere = self._near(robot, standing, geometry), self._others(robot, others)
+        scene = self._scene(robot, near | {tool: StandingObject(start, geometry)})
+        scene.place_robots(elsewhere)
+        why: Blocked | None = None
+        for yaw in geometry.grasp.yaws:
+            now = joints or self.park_joints(robot)
+            ways = Using(scene, tool, geometry, start, start, yaw, near, now, points=points).ways()
+            if not isinstance(ways, Blocked):
+                checked = (self._twice(w, Task(tool, geometry, start, start, yaw), near, elsewhere) for w in ways)
+                return next((w for w in checked if isinstance(w, Blocked)), ways)
+            why = why or ways
+        return why or Blocked("reach", f"{tool} has nothing to hold it by")
 
     def park(
         self,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject
+from pico.motion.types import Blocked, Joints, Motion, MovePath, StandingObject, Waypoint
 
 
 class DeferredMotion:
@@ -86,6 +86,13 @@ class DeferredMotion:
     ) -> MovePath | Blocked:  # fmt: skip
         """See `Motion.let_go`."""
         return self._arms.let_go(robot, component, held, standing, joints, others)
+
+    def use(
+        self, robot: str, tool: str, start: Pose, points: Sequence[Waypoint], standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> tuple[MovePath, ...] | Blocked:  # fmt: skip
+        """See `Motion.use`."""
+        return self._arms.use(robot, tool, start, points, standing, joints, others)
 
     def travel(
         self,

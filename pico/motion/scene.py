@@ -21,9 +21,8 @@ from pico.model.lab import KeepOut
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm, build_arm
-from pico.motion.engine import require_mujoco
+from pico.motion.engine import add_solids, require_mujoco
 from pico.motion.reach import grasp_height
-from pico.motion.solids import add_solids
 from pico.motion.types import Joints, StandingObject
 
 FREE = 10.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -21,6 +21,17 @@ class StandingObject:
 
     pose: Pose
     geometry: Geometry
+
+
+@dataclass(frozen=True, slots=True)
+class Waypoint:
+    """A place over which the tool is brought at transit height, and lowered: its `pose` seen from above, how far above
+    the table its base then is (`height`, mm); there it is turned by `turn` [deg], counter-clockwise from above, and
+    lifted again."""
+
+    pose: Pose
+    height: float
+    turn: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +77,11 @@ class MovePath:
     @property
     def seconds(self) -> float:
         return sum(s.seconds for s in self.segments)
+
+    @property
+    def hands_over(self) -> bool:
+        """Whether the hand takes or lets go of the component on it."""
+        return any(segment.name in ("grip", "release") for segment in self.segments)
 
     def gone(self, stage: Stage) -> float:
         """Return how many of its seconds are over where an arm is at `stage` of it."""
@@ -164,6 +180,14 @@ class Motion(Protocol):
         others: Mapping[str, Joints] | None = None,
     ) -> MovePath | Blocked:  # fmt: skip
         """Return the path that sets `component`, which `robot` holds at `held`, down where it is, and the hand up."""
+        ...
+
+    def use(
+        self, robot: str, tool: str, start: Pose, points: Sequence[Waypoint], standing: Mapping[str, StandingObject],
+        joints: Joints | None = None, others: Mapping[str, Joints] | None = None,
+    ) -> tuple[MovePath, ...] | Blocked:  # fmt: skip
+        """Return the paths that take the part `tool` where it stands at `start`, use it at `points` and put it back;
+        each begins where the one before it ends. The rest as for `move`."""
         ...
 
     def travel(

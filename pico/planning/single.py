@@ -30,6 +30,7 @@ from pico.planning.passes.goal import PlanGoal
 from pico.planning.passes.values import home_operation, value_operations
 from pico.planning.planner import Planner
 from pico.planning.realigning import measured_last
+from pico.planning.routines import with_arm
 from pico.planning.sought import Sought, tunables_of
 from pico.planning.surveying import Shots, surveying
 from pico.planning.teleoperating import steered, teleoperating
@@ -82,8 +83,8 @@ def home_one(planner: Planner, component: str, tunable: str) -> PlanGoal:
 
 
 def do_one(planner: Planner, component: str, name: str, arguments: Mapping[str, Value]) -> PlanGoal:
-    """Return the goal of a primitive that a device does and that brings about no state; one that takes pictures for it
-    needs what a picture needs.
+    """Return the goal of a primitive that a device does, or an arm with a tool, and that brings about no state; one
+    that takes pictures for it needs what a picture needs.
 
     Raises PicoError for a component that the lab does not have or that is not seen, for a setting without a range
     where one is to be found, and where what the primitive requires does not hold.
@@ -109,7 +110,7 @@ def do_one(planner: Planner, component: str, name: str, arguments: Mapping[str, 
     )  # fmt: skip
     if wrong := refused(setup, seen, one):
         raise PicoError(wrong)
-    return _asked(planner, [one])
+    return _asked(planner, [with_arm(setup, planner.motion, seen, one) if planner.motion else one])
 
 
 def measure(planner: Planner, wanted: Sequence[tuple[str, str]], goals: Sequence[Turn] = ()) -> PlanGoal:

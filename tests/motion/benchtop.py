@@ -14,9 +14,9 @@ from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
+from pico.motion.engine import add_solids
 from pico.motion.kinematics import tool_pose
 from pico.motion.paths import between
-from pico.motion.solids import add_solids
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject
 
 PART = Geometry(

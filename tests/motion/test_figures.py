@@ -22,6 +22,7 @@ from pico.model.pose import Pose
 from pico.model.robot import Gripper, Mount, Robot
 from pico.motion import frames, gantry, timing
 from pico.motion.arms import ARM_REACH, ArmMotion
+from pico.motion.engine import add_solids
 from pico.motion.hulls import Hull, Placed, distance, of_geometry
 from pico.motion.kinematics import Column, column_of, fk, joint_at, planar
 from pico.motion.moves import legs, turned
@@ -29,7 +30,6 @@ from pico.motion.paths import heights, travel
 from pico.motion.reach import check_grip, check_table, grasp_height
 from pico.motion.recheck import Recheck, Task
 from pico.motion.scene import FREE, Scene, within_reach
-from pico.motion.solids import add_solids
 from pico.motion.stability import EDGE, check_stability
 from pico.motion.sweep import Leg, march
 from pico.motion.types import Blocked, Joints, MovePath, Segment, StandingObject

@@ -14,8 +14,8 @@ from pico.model.pose import Pose
 from pico.model.robot import Mount, Robot
 from pico.motion.arm import ARM_BIT, WORLD_BIT, attach_arm
 from pico.motion.arms import ArmMotion
+from pico.motion.engine import add_solids
 from pico.motion.scene import FREE, Scene, within_reach
-from pico.motion.solids import add_solids
 
 ARM = bench().lab.robots["arm1"]
 THINGS = (PART, DISC, TALL, TRIANGLE)

@@ -18,6 +18,7 @@ from pico.backends.hardware.pictures import alike, grayed
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.report import read
 from pico.backends.hardware.session import HardwareSession
+from pico.backends.hardware.settings import Settings
 from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
@@ -31,6 +32,7 @@ from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import MovePath
 from pico.planning.checks.interlocks import LAMP
+from pico.planning.routines import plugged_in
 from pico.twin.arms import TwinArm
 from pico.vision.arm import NOMINAL
 from pico.vision.calibration import calibration_digest, known_arms, read_calibration
@@ -59,7 +61,7 @@ class HardwareDevice:
     ) -> None:  # fmt: skip
         self.fidelity = fidelity
         self.setup, self.root, self.links, self._clock = setup, root, links, clock
-        self._motion = DeferredMotion(setup)
+        self._motion, self._settings = DeferredMotion(setup), Settings(root, links.bench)
         self._session: HardwareSession | None = None
         self._placed: dict[str, LastSeen] = {}
         self._before: tuple[tuple[Observation, str | None], list[Frame], Look] | None = None
@@ -76,7 +78,7 @@ class HardwareDevice:
         readers = Readers(self.setup, self.root, about)
         return Capabilities(
             name=self.bench, fidelity=self.fidelity, evidence=self.bench, lab_digest=self.setup.digest(),
-            primitives=PRIMITIVES, robots=tuple(sorted(self.setup.lab.robots)),
+            primitives=PRIMITIVES | plugged_in().keys(), robots=tuple(sorted(self.setup.lab.robots)),
             measurables=frozenset(readers.measurables()), unmodelled=unwired(self.setup, about),
         )  # fmt: skip
 
@@ -185,6 +187,7 @@ class HardwareDevice:
 
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
+        found = replace(found, values={**self._settings.commanded(self.setup), **found.values})
         found = replace(found, problems=(*found.problems, *self._told(bench, await self.most())))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
@@ -230,7 +233,7 @@ class HardwareDevice:
         self._session = HardwareSession(
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.root, bench).image,
-            untried=self.links.untried(), most=most,
+            keep=self._settings.put, untried=self.links.untried(), most=most,
         )  # fmt: skip
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:

@@ -16,17 +16,21 @@ from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
 from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
+from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
+from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.motion.types import Blocked, Motion, MovePath, Stage
+from pico.planning.routines import carried
 from pico.twin.arms import TwinArm
 
 if TYPE_CHECKING:
@@ -39,18 +43,20 @@ Measuring = Callable[[str, str, list[str]], Awaitable["Measurement"]]
 
 class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
-    `now`: the bench's clock [s]; `untried`: robots whose driver was never tried on a device; `most`: the greatest
-    speed of tools [mm/s], where a person may be near."""
+    `now`: the bench's clock [s]; `keep`: keeps what was commanded and nobody reads, None where nobody knows it any
+    more; `untried`: robots whose driver was never tried on a device; `most`: the greatest speed of tools [mm/s], where
+    a person may be near."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
         tell: Callable[[Event], None], now: Callable[[], float], pause: Callable[[float], Awaitable[None]],
-        measure: Measuring, image: Callable[[str], Awaitable[Reading]], untried: frozenset[str] = frozenset(),
+        measure: Measuring, image: Callable[[str], Awaitable[Reading]], keep: Callable[[str, Value | None], None],
+        untried: frozenset[str] = frozenset(),
         most: float | None = None,
     ) -> None:  # fmt: skip
         self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
         self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
-        self._untried, self._moved, self._most = untried, set[str](), most
+        self._keep, self._untried, self._moved, self._most = keep, untried, set[str](), most
         self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
@@ -180,7 +186,30 @@ class HardwareSession:
     def _act(self, operation: Operation, key: str) -> Coroutine[Any, Any, Mapping[str, Any]]:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
                "measure": self._measure, "auto_range": self._auto_range}  # fmt: skip
-        return own.get(operation.primitive, self._refused)(operation, key)
+        return own.get(operation.primitive, self._plugged_in)(operation, key)
+
+    async def _plugged_in(self, operation: Operation, key: str) -> Mapping[str, Any]:
+        """Use a tool as a plug-in's routine says, once that went well in the twin; what the routine commands nobody
+        reads: it is kept, and unknown while the arm is at it."""
+        routine = asked_of(self._setup, await self._seen(), operation)
+        if routine is None:
+            return await self._refused(operation, key)
+        tool, told = routine.tool, [f"{operation.component}.{tunable}" for tunable in routine.commands]
+        await self._asked(self._known.survey, tool)
+        seen = await self._seen()
+        start, paths = await asyncio.to_thread(ways.using, self._setup, self._motion, seen, operation, routine)
+        checks.require_dark(self._setup, seen, operation)
+        meant = carried(operation, tool, start)
+        await asyncio.to_thread(rehearse, self._setup, seen, meant, tool, paths)
+        await self._asked(self._known.takes, tool, paths[0])
+        for address in told:
+            self._keep(address, None)
+        for path in paths:
+            await self._gone(meant, key, path, start)
+        checks.require_back(self._setup, tool, await self._asked(self._known.confirm, tool, start), start)
+        for address, value in zip(told, routine.commands.values(), strict=True):
+            self._keep(address, value)
+        return {}
 
     async def _refused(self, operation: Operation, key: str) -> Mapping[str, Any]:
         text = f"the bench cannot {operation.primitive} {operation.component}"
@@ -233,6 +262,11 @@ class HardwareSession:
             raise checks.blocked(name, path)
         checks.require_dark(self._setup, seen, operation)
         await self._asked(self._known.takes, name, path)
+        await self._gone(operation, key, path, start)
+
+    async def _gone(self, operation: Operation, key: str, path: MovePath, start: Pose) -> None:
+        """Have an arm go along a path with what it took at `start`, or is to take there; says what became of that."""
+        name = operation.component
         try:
             await self._walked(operation, key, path)
         except _Back as way:

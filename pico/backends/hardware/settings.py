@@ -9,7 +9,9 @@ from pathlib import Path
 
 from pico.attachment import bench_folder
 from pico.disk import write_whole
+from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
+from pico.model.setup import Setup
 
 
 class Settings:
@@ -24,11 +26,19 @@ class Settings:
         """Return what was told last, `default` where nothing was, or that can't be read."""
         return self._read().get(address, default)
 
-    def put(self, address: str, value: Value) -> None:
-        """Keep what was told; raises PicoError where that can't be written."""
+    def put(self, address: str, value: Value | None) -> None:
+        """Keep what was told, None to forget it; raises PicoError where that can't be written."""
         with self._lock:
-            data = json.dumps({**self._read(), address: value}, sort_keys=True).encode()
+            told = {**self._read(), address: value}
+            data = json.dumps({key: v for key, v in told.items() if v is not None}, sort_keys=True).encode()
             write_whole(self._path, data, what="the settings of the bench can't be kept", folders=True)
+
+    def commanded(self, setup: Setup) -> dict[str, ObservedValue]:
+        """Return the tunables that only an arm with a tool sets, by address, as they were commanded last."""
+        told, kinds = self._read(), {name: setup.type_of(name).tunables for name in setup.lab.inventory}
+        known = {address: ObservedValue(value=value, status="commanded") for address, value in told.items()}
+        by_arm = (f"{n}.{tunable}" for n, own in kinds.items() for tunable, kind in own.items() if kind.mover == "arm")
+        return {address: known.get(address, ObservedValue(status="unknown")) for address in by_arm}
 
     def _read(self) -> dict[str, Value]:
         try:

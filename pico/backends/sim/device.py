@@ -23,6 +23,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
+from pico.planning.routines import plugged_in as routines
 from pico.teleop.frames import STEPS
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_
 def _capabilities(setup: Setup, fidelity: str) -> Capabilities:
     return Capabilities(
         name="sim", fidelity=fidelity, evidence=fidelity, lab_digest=setup.digest(),
-        primitives=PRIMITIVES | STEPS | plugged_in().keys(), robots=tuple(sorted(setup.lab.robots)),
+        primitives=PRIMITIVES | STEPS | plugged_in().keys() | routines().keys(), robots=tuple(sorted(setup.lab.robots)),
         measurables=frozenset(simulated(setup)), simulated=True,
     )  # fmt: skip
 

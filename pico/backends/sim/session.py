@@ -17,6 +17,7 @@ from pico.backends.by_sight import BySight
 from pico.backends.device import Began
 from pico.backends.halting import sooner, way_out
 from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
+from pico.backends.routines import asked_of
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.checks import refused, shut
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly, on_the_way, strikes
@@ -45,6 +46,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.model.trace.learned import Learned, work
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
+from pico.planning.routines import Routine, carried
 from pico.teleop.frames import STEPS
 from pico.twin.learned import read_learned, with_noise
 from pico.twin.snapshot import Snapshot
@@ -239,12 +241,33 @@ class WorldSession:
         return {"value": frames[-1].exposure, "frames": [as_json(asdict(frame)) for frame in frames]}
 
     def _plugged_in(self, operation: Operation, key: str) -> InProgress:
-        """Do what a plug-in brought, in the time that the plan reckons with."""
-        does = plugged_in().get(operation.primitive)
-        if does is None:
+        """Do what a plug-in brought, in the time that the plan reckons with, or that its arm takes."""
+        does, routine = plugged_in().get(operation.primitive), asked_of(self._setup, self._known.seen(), operation)
+        if does is None and routine is None:
             raise refused(operation)
-        yield operation.seconds
-        self._world = does(self._world, operation)
+        if routine is None:
+            yield operation.seconds
+        else:
+            yield from self._used(operation, key, routine)
+            for tunable, value in routine.commands.items():
+                told = ObservedValue(value=value, status="commanded")
+                self._world = self._world.with_value(operation.component, tunable, told)
+        self._world = does(self._world, operation) if does else self._world
+        return {}
+
+    def _used(self, operation: Operation, key: str, routine: Routine) -> InProgress:
+        """Use a tool, which then stands where it stood."""
+        tool = routine.tool
+        stands = self._known.survey(tool)
+        start, ways_ = ways.using(self._setup, self._motion, self._known.seen(), operation, routine)
+        checks.require_dark(self._setup, self._known.seen(), operation)
+        meant = carried(operation, tool, start)
+        self._known.takes(tool, ways_[0])
+        for path in ways_:
+            with self._zones.held(operation, path):
+                walk = self._mover.move(meant, path, stands) if path.hands_over else self._mover.park(path)
+                yield from self._reported(meant, key, path, walk)
+        checks.require_back(self._setup, tool, self._known.confirm(tool, start), start)
         return {}
 
     def _move(self, operation: Operation, key: str) -> InProgress:

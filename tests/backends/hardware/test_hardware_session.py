@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -21,15 +21,20 @@ from pico.backends.hardware.walking import Way
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
+from pico.model import primitive
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
+from pico.model.primitive import Primitive
+from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
-from pico.motion.types import MovePath, Segment
+from pico.motion.types import MovePath, Segment, Waypoint
+from pico.planning import routines
+from pico.planning.routines import Routine
 from pico.twin.arms import TwinArm
 
 SLOT, GOAL = "storage/a3", Pose(395, 420, 0)
@@ -179,8 +184,9 @@ class Curtain:
 
 
 def session(
-    bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset(), curtain: Curtain | None = None
-) -> HardwareSession:
+    bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset(), curtain: Curtain | None = None,
+    keep: Callable[[str, Value | None], None] = lambda *_: None,
+) -> HardwareSession:  # fmt: skip
     instruments = Instruments()
     if curtain is not None:
         instruments.inputs["curtain"] = SafetyEntry(kind="curtain", device="box"), curtain  # type: ignore[assignment]
@@ -196,7 +202,7 @@ def session(
     arms = {"arm1": TwinArm(bench.setup.lab.robots["arm1"])}
     return HardwareSession(
         bench.setup, instruments, Known(bench), motion=ArmMotion(bench.setup), arms=arms, tell=lambda event: None,
-        now=lambda: 0.0, pause=none, measure=none, image=none, untried=untried,
+        now=lambda: 0.0, pause=none, measure=none, image=none, keep=keep, untried=untried,
     )  # fmt: skip
 
 
@@ -233,6 +239,31 @@ def test_an_arm_that_was_lost_moves_nothing_before_it_is_got_ready_again(setup: 
     assert result.outcome == "failed" and result.error is not None
     assert result.error.summary.startswith("op3, move of lx_125, failed: arm1 was lost, for the control box reported")
     assert bench.said == [], "not even its fingers"
+
+
+def test_a_tool_is_used_as_a_plug_in_says_and_what_that_commands_is_unknown_meanwhile(
+    setup: Setup, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    over = Waypoint(Pose(110, 220, 0), 146.0, 60.0)
+    asked = Primitive(name="turn", by="arm", changes="anything")
+    monkeypatch.setattr(primitive, "plugged_in", lambda: {"turn": asked})
+    routine = Routine(tool="lx_125", points=(over,), commands={"angle": 30.0})
+    monkeypatch.setattr(routines, "plugged_in", lambda: {"turn": lambda *_: routine})
+    bench, kept = Bench(setup), list[tuple[str, Any]]()
+    home = bench.at
+
+    def keep(address: str, value: Value | None) -> None:
+        kept.append((address, value if bench.legs else "nothing yet" if value is None else value))
+
+    turn = Operation(id="op1", primitive="turn", component="p1", robot="arm1", reason=ASKED)
+    result = executed(session(bench, keep=keep), turn)
+    assert (result.outcome, result.error) == ("done", None)
+    assert kept == [("p1.angle", "nothing yet"), ("p1.angle", 30.0)]
+    assert not bench.holding and bench.at.distance(home) < 1e-6 and bench.said.count("fingers 30") == 1
+    kept.clear()
+    bench.legs, bench.fails = 0, {5: "arm1 reports C31, a collision"}
+    assert executed(session(bench, keep=keep), turn).outcome == "failed"
+    assert kept == [("p1.angle", "nothing yet")], "nobody knows how far it was turned"
 
 
 def test_fingers_that_close_on_nothing_have_missed_and_the_arm_withdraws(setup: Setup) -> None:
