@@ -58,7 +58,7 @@ def submitted(commands: Commands, command: Command) -> Commands:
     known = commands.rows.get(command.key)
     if known is not None:
         if known.command.digest != command.digest:
-            raise ValueError(f"{command.key} was asked for with other content")
+            raise ValueError(f"{command.key} is recorded with other content")
         return commands
     if any(row.command.seq == command.seq for row in commands.of(command.token)):
         raise ValueError(f"lease {command.token} has another command {command.seq} than {command.key}")

@@ -13,6 +13,7 @@ import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
+from contextvars import ContextVar
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -20,7 +21,7 @@ from pico import attachment
 from pico.attachment import bench_folder, hold, let_go, require_attached
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, write_whole, writing
-from pico.edge.protocol import Holder, Lease
+from pico.edge.protocol import ENROLMENT, Granting, Holder, Lease
 
 
 def utc_now() -> str:
@@ -48,11 +49,14 @@ class BenchLock:
         self._file: int | None = None
         self.server = False
         """Whether this process takes it for others, whom it serves."""
+        self.granting: Granting | None = None
+        """Who grants the bench in place of this lock, where it is enrolled with a coordinator."""
 
     def acquire(self, holder: str) -> Lease:
         """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for, or which worktree
-        the bench is attached to."""
+        the bench is attached to. One that is enrolled with a coordinator only that one grants."""
         require_attached(self._root)
+        token = self._granted()
         file = self._open()
         if not self._locked(file):
             os.close(file)
@@ -66,13 +70,29 @@ class BenchLock:
             os.close(file)
             raise
         self._file = file
-        lease = Lease(token=self._last_token() + 1, holder=holder, since=self._clock())
+        lease = Lease(token=token or self._last_token() + 1, holder=holder, since=self._clock())
         try:
             self._write_holder(lease)
         except PicoError:
             self.release()
             raise
         return lease
+
+    def _granted(self) -> int:
+        """Return the token that the coordinator of the bench gave; 0 where it has none."""
+        if self.granting is not None:
+            return self.granting.token()
+        if (self._folder / ENROLMENT).exists():
+            raise PicoError(enrolled(self._folder), ExitCode.LOCKED)
+        return 0
+
+    def last_token(self) -> int:
+        """Return the highest token that was given out by this lock; raises PicoError where it can't be read."""
+        file = self._open()
+        try:
+            return self._last_token(file)
+        finally:
+            os.close(file)
 
     @property
     def _folder(self) -> Path:
@@ -134,11 +154,12 @@ class BenchLock:
     def _writing(self) -> AbstractContextManager[None]:
         return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
 
-    def _last_token(self) -> int:
+    def _last_token(self, file: int | None = None) -> int:
         """Return the highest token given out; kept in the lock's own file, which only its holder writes. Where somebody
         deleted that since the bench was used, the clock's seconds: more than were ever counted."""
-        assert self._file is not None
-        digits = os.pread(self._file, 32, 0).split(b"\n")[0].strip()
+        file = self._file if file is None else file
+        assert file is not None
+        digits = os.pread(file, 32, 0).split(b"\n")[0].strip()
         if digits.isdigit():
             return int(digits)
         return int(time.time()) if (self._folder / "journal.sqlite").exists() else 0
@@ -211,6 +232,18 @@ def attach(root: Path) -> Path | None:
         return attachment.attach(root)
 
 
+def enrolled(folder: Path) -> Diagnostic:
+    """Return that a bench is granted by its coordinator alone."""
+    try:
+        note = json.loads((folder / ENROLMENT).read_text(encoding="utf-8"))
+        where = f"{note['bench']} at {note['url']}"
+    except (OSError, ValueError, KeyError, TypeError):
+        where = "a coordinator"
+    text = f"this bench is enrolled as {where}, which alone grants it"
+    hint = "go through it (`pico remote add`, then `--bench`); looking is possible here, and so is `pico stop`"
+    return error("enrolled", text, hint=hint)
+
+
 def _in_use(who: Holder, more: str = "") -> Diagnostic:
     hint = "wait with `--lock-timeout SECONDS`, or end it with `pico stop`; looking is always possible"
     return error("locked", f"the bench is in use by {who.said}{'; ' if more else ''}{more}", hint=hint)
@@ -226,8 +259,24 @@ def _alive(process: int) -> bool:
     return True
 
 
+_FOR: ContextVar[str] = ContextVar("for", default="")
+
+
+@contextmanager
+def on_behalf_of(who: str) -> Iterator[None]:
+    """Do something, and begin every task that it starts, for somebody who is known to a coordinator by that name."""
+    before = _FOR.set(who)
+    try:
+        yield
+    finally:
+        _FOR.reset(before)
+
+
 def user() -> str:
-    """Return the name of the user of this process, or the number where it has no name."""
+    """Return the name of whom something is done for: the user of this process, or the number where it has no name, if
+    it is not for somebody else (`on_behalf_of`)."""
+    if who := _FOR.get():
+        return who
     try:
         return getpass.getuser()
     except (KeyError, OSError):

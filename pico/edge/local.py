@@ -19,7 +19,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge import own_lab
 from pico.edge.kept_lab import KeptLab
 from pico.edge.lease import BenchLock, utc_now
-from pico.edge.protocol import RECIPE, UNATTENDED, Holder, Job, Lease, OwnLab
+from pico.edge.protocol import RECIPE, UNATTENDED, Granting, Holder, Job, Lease, OwnLab
 from pico.edge.remembering import Remembering
 from pico.edge.started import StartedRuns
 from pico.model.measurement import Measurement
@@ -109,6 +109,33 @@ class LocalEdge:
     def served(self) -> None:
         """From now on who has the bench has it through this process, which serves it."""
         self._lock.server = True
+
+    def granted_by(self, granting: Granting) -> None:
+        """From now on the bench is taken under leases of the coordinator that it is enrolled with, and of no other."""
+        self._lock.granting, self._lock.server = granting, True
+
+    @property
+    def enrolled(self) -> bool:
+        """Whether a coordinator grants this bench."""
+        return self._lock.granting is not None
+
+    def last_token(self) -> int:
+        """Return the highest token that this bench gave out itself; raises PicoError."""
+        return self._lock.last_token()
+
+    def _require(self, *, under_way: bool = False) -> None:
+        """Raise PicoError (exit code INTERRUPTED) where the coordinator's lease is over."""
+        if self._lock.granting is not None:
+            self._lock.granting.require(under_way=under_way)
+
+    def _stops(self) -> Stopping:
+        """Return whether what goes on in steps is to stop, and how: it is asked to, or the lease is over."""
+        if not self._stopping:
+            try:
+                self._require(under_way=True)
+            except PicoError:
+                return "safely"
+        return self._stopping
 
     async def holder(self) -> Holder | None:
         """Return who moves the bench, None where nobody does."""
@@ -248,7 +275,12 @@ class LocalEdge:
 
     async def end_of(self, holder: str) -> None:
         """Bring what a holder has under way to its safe end, and take the bench back from it."""
-        if (lease := self._lease) is not None and lease.holder == holder:
+        if self._lease is not None and self._lease.holder == holder:
+            await self.drain()
+
+    async def drain(self) -> None:
+        """Bring what is under way to its safe end, and take the bench back from whoever has it."""
+        if (lease := self._lease) is not None:
             await self.halt()
             await self._ended()
             await self.release(lease)
@@ -267,6 +299,11 @@ class LocalEdge:
         """Return the run that an operation belongs to now, None where none goes on."""
         under_way = self._open or self._running
         return under_way.id if under_way is not None else None
+
+    def goes_on_with(self, run: str) -> bool:
+        """Return whether a run that was started here goes on."""
+        task = self._runs[run].task if self._runs.knows(run) else None
+        return task is not None and not task.done()
 
     def arming_over(self) -> bool:
         """Return whether an arming has ended since this was asked last, while nobody has the bench."""
@@ -311,14 +348,14 @@ class LocalEdge:
                     raise
             prepare()
             await self.device.take(lease.token, self._heard)
-            aligning = Aligning(self.setup, self.root, self.device, lambda: self._stopping, self._heard)
-            surveying = Surveying(self.setup, aligning, self.device, lambda: self._stopping, self._heard)
-            doing = Teleoperating(self.setup, surveying, self.device, lambda: self._stopping, self._heard)
+            aligning = Aligning(self.setup, self.root, self.device, self._stops, self._heard)
+            surveying = Surveying(self.setup, aligning, self.device, self._stops, self._heard)
+            doing = Teleoperating(self.setup, surveying, self.device, self._stops, self._heard)
             self._steering = doing
             guarded = Guarded(self.setup, doing, self.observe, lambda: self._running is None, self.alone.most)
             counting = self._counting(guarded)
             conditioned = Conditioned(self.setup, counting, self.observe)
-            self._attempts, self._lease = Attempts(self.journal, conditioned, lease.token), lease
+            self._attempts, self._lease = Attempts(self.journal, conditioned, lease.token, self._require), lease
             seen = await self.observe()
             self.settled = settle(self.setup, self.journal, seen, lease.token)
             if asked := open_questions(self.journal.unsettled()):

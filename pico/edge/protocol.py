@@ -79,6 +79,24 @@ UNATTENDED = "unattended.json"
 """The file of a bench in which stands what an unattended run is held to."""
 
 
+ENROLMENT = "enrolment.json"
+"""The file of a bench in which stands with which coordinator it is enrolled, the only one who then grants it."""
+
+
+class Granting(Protocol):
+    """Who grants a bench that is enrolled with a coordinator, in place of its own counting of tokens."""
+
+    def token(self) -> int:
+        """Return the token under which the bench is taken now; raises PicoError (exit code LOCKED) for a lease that is
+        over."""
+        ...
+
+    def require(self, *, under_way: bool = False) -> None:
+        """Raise PicoError (exit code INTERRUPTED) where nothing may begin to move now; `under_way`: no step of what
+        began before."""
+        ...
+
+
 @record
 class OwnLab:
     """The Lab that a bench keeps as its own, with its component types: the files that describe it, as text by their
@@ -100,7 +118,8 @@ class Job:
     `resumes`: the run of this id goes on, which is known. `stop_on_error`: the first failure lets nothing more start.
     `filmed`: what moves is kept for a film. `wait`: so long it waits for the bench where somebody has it [s].
     `speed`: share of the joint limits that the plan was made for, instead of the lab's. `within`: the id of the open
-    run that this is a step of, see `Edge.open`.
+    run that this is a step of, see `Edge.open`. `offline`: so long its optimizations may go on beyond the lease where
+    the edge is cut off from its coordinator [s]; a minute at most.
     """
 
     plan: Plan
@@ -111,6 +130,7 @@ class Job:
     wait: float = 0.0
     speed: float | None = None
     within: str | None = None
+    offline: float = 0.0
 
 
 class Edge(Protocol):

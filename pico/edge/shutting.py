@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from pico.backends.device import Capabilities
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, error
 from pico.edge import emission
 from pico.edge.about import about_run
 from pico.edge.armings import forget
@@ -79,6 +79,16 @@ class Shutting:
                 done.append(operation)
                 self._told = (*self._told, edge.alone.told(operation))
         edge.alone.tidied(tuple(done))
+
+    async def shut(self, names: tuple[str, ...], why: str) -> tuple[Diagnostic, ...]:
+        """Shut lasers, whatever arms them; return of which that could not be done."""
+        edge, wrong = self._edge, list[Diagnostic]()
+        async with self._one_at_a_time:
+            for laser in names:
+                operation = emission.shutting(edge.setup, await edge.observe(), laser, why)
+                if operation is not None and not await self._done(operation):
+                    wrong.append(error("lapsed", f"{laser} may emit still", address=laser))
+        return tuple(wrong)
 
     def told(self) -> tuple[Diagnostic, ...]:
         """Return, once, which lasers were shut, and why."""

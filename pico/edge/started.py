@@ -28,6 +28,10 @@ class StartedRuns:
             del self._runs[old]
         self._runs[running.id] = running
 
+    def knows(self, run: str) -> bool:
+        """Return whether a run was started here."""
+        return run in self._runs
+
     def is_known(self, run: str, plan: str) -> bool:
         """Return whether a run was started, of the plan with this digest; raises PicoError where of another one."""
         if run in self._runs and self._runs[run].plan != plan:

@@ -18,11 +18,12 @@ from pico.server.guard.addresses import LOOPBACK
 from pico.server.guard.gatekeeper import Gatekeeper
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import document, failure
-from pico.server.routes import events, labs, leases, people
+from pico.server.relay.relaying import relaying
+from pico.server.routes import calls, edge, events, labs, leases, link, people
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
 
-ROUTERS = (people.router, leases.router, events.router, labs.router)
+ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, calls.router)
 TICK = 0.5
 """How often leases that are over are looked for [s]."""
 Part = Callable[[FastAPI], AbstractAsyncContextManager[None]]
@@ -36,7 +37,7 @@ def create_app(books: Books, names: Collection[str] = LOOPBACK, *, parts: Collec
     async def lasting(app: FastAPI) -> AsyncIterator[None]:
         await books.do(books.leases.forget)
         async with AsyncExitStack() as stack:
-            for part in (_lapsing, *parts):
+            for part in (_lapsing, relaying, *parts):
                 await stack.enter_async_context(part(app))
             yield
 

@@ -1,88 +1,73 @@
-"""A coordinator for tests, in a process of its own, of one simulated bench: it speaks as the real one to clients, and
-lets everybody in who says TOKEN."""
+"""A coordinator in a process of its own, with the edge of one simulated bench that is enrolled with it, which lets
+in who says TOKEN."""
 
 from __future__ import annotations
 
 import asyncio
-import json
 import os
+import secrets
 import signal
 import sys
+import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import Any
 
-from pico.edge.link.server import Server, edge_of
+from pico.attachment import bench_folder
+from pico.disk import write_whole
+from pico.edge.link.server import edge_of
 from pico.edge.network.remotes import Remote, Remotes, keep
-from pico.edge.protocol import Lease
 
 TOKEN = "of-a-test"
+BENCH = "shel/bench1"
 
 
-class Client:
-    """What one client has taken, by the number of the call that took it."""
+async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
+    from sqlalchemy import update
 
-    def __init__(self, server: Server, socket: Any) -> None:
-        self.server, self.socket = server, socket
-        self.leases: dict[int, list[Lease]] = {}
-        self.runs: dict[int, list[str]] = {}
-        self.answering: dict[int, asyncio.Task[None]] = {}
+    from pico.edge.network.enrolment import Enrolment
+    from pico.edge.network.uplink import Uplink
+    from pico.server.access.principal import ROLES, right
+    from pico.server.access.secret import fingerprint
+    from pico.server.app import create_app
+    from pico.server.running import listening, server
+    from pico.server.store.books import books_in
+    from pico.server.store.edges import Edges
+    from pico.server.store.tables import tokens
 
-    async def serve(self) -> None:
-        await self.socket.recv()
-        await self.socket.send(json.dumps({"hello": {}}))
-        try:
-            async for text in self.socket:
-                said = json.loads(text)
-                if said.get("close"):
-                    await self.let_go(said["id"])
-                else:
-                    self.answering[said["id"]] = asyncio.create_task(self.answer(said))
-        finally:
-            for number in list(self.answering):
-                await self.let_go(number)
+    books, listener = books_in(folder), listening("127.0.0.1", 0)
+    books.people.settled("test", [right(role) for role in ROLES], by="test")
+    books.people.issued("test", 3600.0, by="test")
+    with books.database.writing() as connection:
+        connection.execute(update(tokens).values(hash=fingerprint(TOKEN)))
+    port, key = listener.getsockname()[1], secrets.token_hex(32)
+    code, _ = Edges(books.database).invited(BENCH, "test")
+    Edges(books.database).enrolled(code, key)
+    write_whole(bench_folder(root) / "enrolment.json", b"{}", folders=True)
+    serving, edge = server(create_app(books)), edge_of(root, "sim", fidelity)
+    uplink = asyncio.create_task(Uplink(edge, Enrolment(f"http://127.0.0.1:{port}", BENCH, key)).run())
 
-    async def answer(self, said: dict[str, Any]) -> None:
-        number = said.pop("id")
-        leases, runs = self.leases.setdefault(number, []), self.runs.setdefault(number, [])
-        async for document in self.server._answers(json.dumps(said).encode(), leases, runs):
-            await self.socket.send(json.dumps({"id": number, **document}))
+    async def told() -> None:
+        while not books.leases.met(BENCH):
+            await asyncio.sleep(0.01)
+        os.write(ready, b"%d\n" % port)
 
-    async def let_go(self, number: int) -> None:
-        if (task := self.answering.pop(number, None)) is not None:
-            task.cancel()
-            await asyncio.wait([task])
-        for lease in self.leases.pop(number, []):
-            await self.server._edge.release(lease)
-        for run in self.runs.pop(number, []):
-            await self.server._edge.alone.gone(run)
-
-
-async def _serve(root: Path, fidelity: str, ready: int) -> None:
-    from websockets.asyncio.server import serve
-
-    server, over = Server(edge_of(root, "sim", fidelity)), asyncio.Event()
-    asyncio.get_running_loop().add_signal_handler(signal.SIGTERM, over.set)
-
-    def known(connection: Any, request: Any) -> Any:
-        if request.headers.get("Authorization") != f"Bearer {TOKEN}":
-            return connection.respond(401, json.dumps({"detail": "no such token"}))
-        return None if request.path == "/api/benches/shel/bench1/link" else connection.respond(404, "")
-
-    async def client(socket: Any) -> None:
-        await Client(server, socket).serve()
-
-    async with serve(client, "127.0.0.1", 0, process_request=known, max_size=None) as serving:
-        os.write(ready, b"%d\n" % next(iter(serving.sockets)).getsockname()[1])
-        await over.wait()
-    await server._edge.close()
+    telling = asyncio.create_task(told())
+    await serving.serve(sockets=[listener])
+    telling.cancel()
+    uplink.cancel()
+    with suppress(asyncio.CancelledError):
+        await uplink
+    await edge.close()
+    (bench_folder(root) / "enrolment.json").unlink()
+    books.close()
 
 
 @contextmanager
 def relayed(root: Path, fidelity: str = "kinematic") -> Iterator[str]:
     """Serve the simulated bench of the lab in `root` as `shel/bench1` of a coordinator; yields its address."""
     reading, writing = os.pipe()
+    books = tempfile.TemporaryDirectory()
     child = os.fork()
     if child == 0:
         code = 1
@@ -91,7 +76,7 @@ def relayed(root: Path, fidelity: str = "kinematic") -> Iterator[str]:
             os.setsid()
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)
-            asyncio.run(_serve(root, fidelity, writing))
+            asyncio.run(_serve(root, fidelity, writing, Path(books.name)))
             code = 0
         except BaseException as exc:
             print(f"the relay ended: {exc!r}", file=sys.stderr, flush=True)
@@ -104,6 +89,7 @@ def relayed(root: Path, fidelity: str = "kinematic") -> Iterator[str]:
         os.close(reading)
         os.kill(child, signal.SIGTERM)
         os.waitpid(child, 0)
+        books.cleanup()
 
 
 def point(lab: Path, url: str, bench: str = "shel/bench1") -> None:

@@ -20,6 +20,8 @@ from pico.server.store.tables import metadata
 
 SEEN = frozenset({("GET", "/api/health")})
 """What anybody may see."""
+CODES = {"/api/login": b'{"code": "no"}', "/api/edge/enrol": b'{"code": "no", "key": "%s"}' % (b"0" * 64)}
+"""What is said where a code lets somebody in."""
 BODIES = (b"", b"{", b"[]", b'{"session": "s", "wait": 0, "token": 1, "reason": "x", "rights": [], "code": "x"}')
 
 
@@ -81,7 +83,7 @@ def test_no_route_answers_without_a_token(coordinator: Served, declared: Any) ->
     for method, path, _ in operations(declared):
         if (method, path) not in SEEN:
             for token, body in zip(tokens, (BODIES * 2)[: len(tokens)], strict=True):
-                body = b'{"code": "no"}' if path == "/api/login" else body
+                body = CODES.get(path, body)
                 assert coordinator.ask(method, at(path), token, body)[0] == 401, (method, path, token, body)
     assert dump(coordinator) == before
 

@@ -9,21 +9,19 @@ from __future__ import annotations
 import asyncio
 import os
 import signal
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pico.content.store import store_of
+from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
+from pico.edge.lease import enrolled
 from pico.edge.link import place, wire
-from pico.edge.link.pictures import Arrays, look_as_json, packed
+from pico.edge.link.answering import Answering, Taken
 from pico.edge.local import LocalEdge, embedded
-from pico.edge.protocol import Lease
-from pico.model.record import as_json
-from pico.vision.calibration import Calibration
 
 FAREWELL = 2.0
 """Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
@@ -40,7 +38,7 @@ class Server:
         self._edge = edge
         edge.served()
         self._path = place.make(edge.root)
-        self._arrays: Arrays = {}
+        self._answering = Answering(edge)
         self._server: asyncio.Server | None = None
         self._clients: set[asyncio.Task[Any]] = set()
         self._ending = False
@@ -76,12 +74,11 @@ class Server:
         task = asyncio.current_task()
         assert task is not None
         self._clients.add(task)
-        leases: list[Lease] = []
-        runs: list[str] = []
+        taken = Taken()
         try:
             data = await reader.readline()
             while data:
-                answering = asyncio.create_task(self._answer(data, writer, leases, runs))
+                answering = asyncio.create_task(self._answer(data, writer, taken))
                 more = asyncio.create_task(reader.readline())  # who waits for an answer says nothing, or is gone
                 await asyncio.wait([answering, more], return_when=asyncio.FIRST_COMPLETED)
                 if not answering.done():
@@ -92,99 +89,46 @@ class Server:
             pass
         finally:
             self._clients.discard(task)
-            for lease in leases:
-                await self._edge.release(lease)
-            for run in runs:
-                await self._edge.alone.gone(run)
+            await taken.let_go(self._edge)
             writer.close()
 
-    async def _answer(
-        self, data: bytes, writer: asyncio.StreamWriter, leases: list[Lease], runs: list[str]
-    ) -> None:  # fmt: skip
+    async def _answer(self, data: bytes, writer: asyncio.StreamWriter, taken: Taken) -> None:
         with suppress(ConnectionError):
-            async for document in self._answers(data, leases, runs):
+            async for document in self._answers(data, taken):
                 writer.write(wire.line(document))
                 await writer.drain()
 
-    async def _answers(self, data: bytes, leases: list[Lease], runs: list[str]) -> AsyncIterator[dict[str, Any]]:
-        """Yield the lines that answer a call; what it takes for this client is in `leases`, and the unattended `runs`
-        that it holds."""
+    async def _answers(self, data: bytes, taken: Taken) -> AsyncIterator[dict[str, Any]]:
+        """Yield the lines that answer a call."""
         try:
             name, arguments = wire.read_call(data)
             if self._ending and name not in READING and not name.startswith("memory"):
                 raise PicoError(error("link", "the edge is about to end", hint="start it again, then call this again"))
-            if name in wire.STREAMS:
-                async for item in self._edge.events(*arguments):
-                    yield {"next": as_json(item)}
-                yield {"value": None}
-                return
-            found = await self._called(name, arguments)
-            if isinstance(found, Lease):
-                leases.append(found)
-            if name == "hold":
-                runs.append(arguments[0].recipe)
-            yield {"value": as_json(found)}
+            if name in wire.TAKES | wire.HOLDS and self._edge.enrolled:
+                raise PicoError(enrolled(bench_folder(self._edge.root)), ExitCode.LOCKED)
         except PicoError as exc:
             yield wire.failure(exc)
-        except Exception as exc:  # the others must go on
-            yield wire.failure(PicoError(error("internal", f"the edge failed: {type(exc).__name__}: {exc}")))
-
-    async def _called(self, name: str, arguments: list[Any]) -> Any:
-        if name == "look":
-            return await self._look()
-        if name == "array":
-            return self._array(*arguments)
-        owner, _, method = name.partition(".")
-        if owner == "memory":
-            return await asyncio.to_thread(self._remembered, method, arguments)
-        if owner == "world":
-            return await asyncio.to_thread(self._simulated, method, arguments)
-        return await getattr(self._edge, name)(*arguments)
-
-    async def _look(self) -> dict[str, Any]:
-        document, self._arrays = look_as_json(await self._edge.look())
-        return document
-
-    def _array(self, name: str) -> str:
-        """Return a picture of the last look, or what a run kept that a commit has no room for."""
-        return packed(self._arrays[name] if name in self._arrays else store_of(self._edge.root).get(name))
-
-    def _remembered(self, method: str, arguments: list[Any]) -> Any:
-        memory = self._edge.memory
-        if not method or memory is None:
-            return memory is not None
-        if method == "records":
-            return memory.records(run=arguments[0], key=arguments[1])
-        found = getattr(memory, method)(*arguments)
-        return tuple(found) if method == "successes" else found
-
-    def _simulated(self, method: str, arguments: list[Any]) -> Any:
-        world = self._edge.world
-        if not method:
-            return None
-        if method == "nudge":
-            name, dx, dy, dyaw = arguments
-            return world.nudge(name, dx=dx, dy=dy, dyaw=dyaw)
-        if method == "bump":
-            return world.bump(arguments[0], shift=arguments[1], turn=arguments[2])
-        if method == "upset":
-            return world.upset(arguments[0], **arguments[1])
-        if method == "true_cameras":
-            return Calibration(cameras=world.true_cameras()).as_json()
-        return getattr(world, method)(*arguments)
+            return
+        async for document in self._answering.answers(name, arguments, taken):
+            yield document
 
 
-async def serve(edge: LocalEdge, ready: Callable[[], None] = lambda: None) -> None:
-    """Serve an edge until SIGTERM, SIGINT or SIGHUP; what is under way then comes to its safe end."""
+async def serve(
+    edge: LocalEdge, ready: Callable[[], None] = lambda: None,
+    beside: Callable[[], Coroutine[Any, Any, None]] | None = None,
+) -> None:  # fmt: skip
+    """Serve an edge until SIGTERM, SIGINT or SIGHUP; what is under way then comes to its safe end. `beside`: what goes
+    on meanwhile."""
     server, ended = Server(edge), asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, ended.set)
     await server.open()
     try:
         ready()
-        minding = asyncio.create_task(_mind(edge))
+        tasks = [asyncio.create_task(_mind(edge)), *([asyncio.create_task(beside())] if beside else ())]
         await ended.wait()
-        minding.cancel()
+        for task in tasks:
+            task.cancel()
     finally:
         await server.close()
 

@@ -96,6 +96,8 @@ TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "hold",
     - {"world.placements", "world.true_cameras", "world.true_arms"}
 )
 """Calls that take the bench, as only the worktree may that it is attached to."""
+HOLDS = frozenset({"execute", "finish", "goes_on", "leave", "jog"})
+"""Calls of who has the bench, or an unattended run on it."""
 LONGEST = 1 << 28
 """Bytes of the longest line."""
 

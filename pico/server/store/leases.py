@@ -43,6 +43,11 @@ class Leases:
             row, _, since = _read(connection, bench)
             return row, self._database.now(connection), since
 
+    def met(self, bench: str) -> bool:
+        """Return whether the edge of a bench has said what it fenced for since the coordinator began."""
+        with self._database.reading() as connection:
+            return bool(connection.execute(select(benches.c.met).where(benches.c.bench == bench)).scalar())
+
     def turn(self, bench: str, change: Change) -> Turn:
         """Make a change, durable before it returns; raises PicoError where there is no such bench."""
         with self._database.writing() as connection:
@@ -86,9 +91,7 @@ class Leases:
         def change(row: Lease, now: float, _met: bool) -> Turn:
             return control.heard(row, fenced, now).then(lambda r: control.promoted(r, now, True))
 
-        with self._database.reading() as connection:
-            met = connection.execute(select(benches.c.met).where(benches.c.bench == bench)).scalar()
-        if not met:
+        if not self.met(bench):
             with self._database.writing() as connection:
                 connection.execute(update(benches).where(benches.c.bench == bench).values(met=True))
         return self.turn(bench, change)
