@@ -18,6 +18,10 @@ SLICE = 10.0
 """Seconds that one request waits for a bench; who asks again keeps their place."""
 
 
+FENCING = 10.0
+"""Seconds in which an edge ends what moved before and says that it has."""
+
+
 class Holding:
     """The lease of the bench `far`, as one checkout asks for it. Every method raises PicoError."""
 
@@ -36,11 +40,12 @@ class Holding:
         until = time.monotonic() + wait
         while True:
             left = max(0.0, until - time.monotonic())
-            body = {"session": self._session, "wait": min(max(left, 2.0), SLICE)}  # an edge fences within a second
+            body = {"session": self._session, "wait": min(max(left, 1.0), SLICE)}
             found = self._ask("POST", self._path, body, wait=SLICE + 20)
             if found["state"] == "granted":
                 return int(found["token"])
-            if time.monotonic() >= until and found.get("holder") not in (None, self._who()):
+            late = time.monotonic() - until
+            if late >= 0 and (late > FENCING or self._held_by_others()):
                 self._give_up(found)
 
     def steal(self, reason: str) -> int:
@@ -76,14 +81,16 @@ class Holding:
         self._ask("DELETE", f"{self._path}?{query}")
         return holder is not None
 
-    def _who(self) -> str | None:
-        """Return who has the bench where that is this checkout, for which the edge has still to fence."""
+    def _held_by_others(self) -> bool:
         found = self.show()
-        return str(found["holder"]["who"]) if found["mine"] else None
+        return bool(found["holder"]) and not found["mine"]
 
     def _give_up(self, found: Mapping[str, Any]) -> NoReturn:
         query = urlencode({"session": self._session, "token": 0})
         self._ask("DELETE", f"{self._path}?{query}")
+        if not self._held_by_others():
+            text = f"the edge of {self.far.name} does not take it over"
+            raise PicoError(error("away", text, hint="is it there? `pico edge` beside the table connects it"))
         text = f"{found['holder']} has {self.far.name}"
         hint = "wait for it: `pico lease take --wait SECONDS`; `pico lease show` says since when, and who is next"
         raise PicoError(error("locked", text, hint=hint), ExitCode.LOCKED)
