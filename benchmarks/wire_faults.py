@@ -49,6 +49,7 @@ from pico.model.observation import Observation  # noqa: E402
 from pico.model.operation import Operation  # noqa: E402
 from pico.model.plan import Plan, Target  # noqa: E402
 from pico.model.state import with_values  # noqa: E402
+from pico.optics.audit.findings import AUDIT  # noqa: E402
 from pico.planning import PlanGoal  # noqa: E402
 
 STATES = ("C1", "C2", "C3", "E1-1", "E1-2", "E1-3", "E2-1", "E2-2", "E2-3", "E3-1", "E3-2")
@@ -132,7 +133,17 @@ class Trial:
     # where to
 
     def goal(self) -> PlanGoal:
-        """Return a state to be brought about: most often the next one in the history, with set-points drawn anew."""
+        """Return a state to be brought about, at which light does no damage."""
+        while True:
+            goal = self._drawn()
+            with suppress(PicoError):  # a machine that is too busy to look does not know
+                if any(d.severity == "error" and d.code == AUDIT for d in self.plan(goal).diagnostics):
+                    self.count["goals at which light does damage"] += 1
+                    continue
+            return goal
+
+    def _drawn(self) -> PlanGoal:
+        """Draw a state: most often the next one in the history, with set-points drawn anew."""
         near = STATES[max(0, STATES.index(self.at) - 1) : STATES.index(self.at) + 2]
         self.at = self.draw.choice(STATES if self.draw.random() < 0.2 else near)
         axes = self.draw.sample(sorted(AXES), 3)

@@ -28,11 +28,11 @@ class Line(Generic[H]):
         """How often it was stopped: what moves step by step goes on only while this is as it was."""
         return self._stops
 
-    async def connect(self) -> Identity:
-        """Open the link, and return who answers; raises PicoError where that is somebody else."""
+    async def connect(self, *, within: float = USUAL) -> Identity:
+        """Open the link, and return who answers; raises PicoError where that is somebody else, or takes longer."""
         self._bus.use(self)
         self._known = None
-        return await self.ask("say who it is", self._identity)
+        return await self.ask("say who it is", self._identity, within=within)
 
     async def ask(self, what: str, run: Callable[[H], T], *, within: float = USUAL) -> T:
         """Return what `run` gives with the link, as `Bus.ask` does."""

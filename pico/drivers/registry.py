@@ -61,7 +61,7 @@ class Buses:
             raise PicoError(error("missing-extra", text, hint=install, address=name))
         require_fit(name, entry, found)
         if found.needs:  # seconds of some libraries, which are no answer's delay
-            found.load() if found.load else import_module(found.needs[0])
+            _imported(name, found)
         link = found.link or f"{entry.driver} of {name}"
         key = (link, *(str(entry.address.get(part, "")) for part in found.bus))
         if key not in self._buses:
@@ -72,6 +72,17 @@ class Buses:
         """Close every link."""
         for bus in self._buses.values():
             await bus.close()
+
+
+def _imported(name: str, found: Driver) -> None:
+    """Import what a driver needs; raises PicoError where that lacks something itself, such as a library of the system."""
+    module, extra = found.needs or ("", "")
+    try:
+        found.load() if found.load else import_module(module)
+    except ImportError as exc:
+        text = f"{name} needs `{module}`, which can't be imported: {exc}"
+        hint = f"install what it lacks, or `pip install 'pico-lab[{extra}]'` again"
+        raise PicoError(error("missing-extra", text, hint=hint, address=name)) from exc
 
 
 def require_fit(name: str, entry: DeviceEntry, found: Driver) -> None:

@@ -1,0 +1,142 @@
+"""RealSense depth cameras through the vendor's pyrealsense2: gray pictures of the left infrared eye, and depth maps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import PicoError, error
+from pico.drivers.bus import Bus
+from pico.drivers.driver import Driver
+from pico.drivers.limits import require_within
+from pico.drivers.line import Line
+from pico.drivers.protocols import Identity
+from pico.drivers.visa import require_read_back
+from pico.model.wiring import DeviceEntry
+
+if TYPE_CHECKING:
+    import numpy as np
+
+REPLY = 2000
+"""How long a picture may take [ms]."""
+SIZE, RATE = (1280, 720), 30
+"""Columns and rows of a picture, and pictures a second, where the lab says nothing."""
+_GRAB = 4.9
+"""How long a picture may take in all [s]."""
+_EXPOSURE = 0.02
+"""How far the exposure that is read back may be from what was set [of itself]."""
+
+
+class _Link:
+    """A camera that streams; an emulated one, which the vendor's library has, is `asked` for each picture."""
+
+    def __init__(self, entry: DeviceEntry) -> None:
+        import pyrealsense2 as rs
+
+        self._rs, wanted = rs, rs.config()
+        context = rs.context()
+        self._pipeline = rs.pipeline(context)  # before a device of software is added: else it finds none
+        software = entry.address.get("software")
+        self._asked: Callable[[], object] = rs.emulated[software](context) if software else lambda: None
+        serial = str(entry.address["serial"])
+        if serial not in (one.get_info(rs.camera_info.serial_number) for one in context.query_devices()):
+            raise ConnectionError(f"no camera with the serial number {serial} is there")  # it would wait for one
+        said = {"width": SIZE[0], "height": SIZE[1], "rate": RATE, **entry.settings, **entry.address}
+        width, height, rate = (int(said[key]) for key in ("width", "height", "rate"))
+        wanted.enable_device(serial)
+        wanted.enable_stream(rs.stream.depth, 0, width, height, rs.format.z16, rate)
+        wanted.enable_stream(rs.stream.infrared, 1, width, height, rs.format.y8, rate)
+        self.device = self._pipeline.start(wanted).get_device()
+
+    def taken(self) -> Any:
+        """Return the next frames but one: those of the first began before it was asked for."""
+        for _ in range(2):
+            self._asked()
+            found = self._pipeline.wait_for_frames(REPLY)
+        return found
+
+    def told(self, what: str) -> str:
+        """Return what the camera says of itself, '' where it says nothing of that."""
+        key = getattr(self._rs.camera_info, what)
+        return str(self.device.get_info(key)) if self.device.supports(key) else ""
+
+    def set(self, name: str, what: str, value: float, scale: float) -> None:
+        """Set an option of its eyes, in a unit that is `scale` of the library's; raises PicoError where it has none."""
+        option = getattr(self._rs.option, what)
+        for sensor in self.device.query_sensors():
+            if sensor.supports(option):
+                sensor.set_option(option, value * scale)
+                found = sensor.get_option(option) / scale
+                if abs(found - value) > _EXPOSURE * abs(value):
+                    require_read_back(name, f"the {what}", value, found)
+                return
+        raise PicoError(error("device", f"{name} has no {what} that can be set", address=name))
+
+    def close(self) -> None:
+        """Let go of it."""
+        self._pipeline.stop()
+
+
+class DepthCamera:
+    """A depth camera."""
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[_Link]) -> None:
+        self.name, self._limits = name, entry.limits
+        self._line = Line(name, bus, entry.identity, _identity)
+
+    async def connect(self) -> Identity:
+        return await self._line.connect(within=_GRAB)  # beside another vendor's library it takes seconds
+
+    async def grab(self, *, exposure: float | None = None, gain: float | None = None) -> np.ndarray:
+        """Return one picture, taken after the call, with this exposure [ms] and gain where they are given."""
+        asked = [(w, v, u, s) for w, v, u, s in (("exposure", exposure, "ms", 1000.0), ("gain", gain, "", 1.0))
+                 if v is not None]  # fmt: skip
+        for what, value, unit, _ in asked:
+            if limits := self._limits.get(what):
+                require_within(self.name, what, value, limits, unit)
+
+        def take(link: _Link) -> np.ndarray:
+            import numpy as np
+
+            for what, value, _, scale in asked:
+                link.set(self.name, what, value, scale)
+            return np.array(link.taken().get_infrared_frame(1).get_data())
+
+        return await self._line.ask("take a picture", take, within=_GRAB)
+
+    async def depth(self) -> np.ndarray:
+        """Return one depth map, taken after the call, [mm], NaN where nothing was found."""
+
+        def take(link: _Link) -> np.ndarray:
+            import numpy as np
+
+            frame = link.taken().get_depth_frame()
+            counts = np.array(frame.get_data(), dtype=float)
+            return np.where(counts > 0, counts * frame.get_units() * 1000, np.nan)
+
+        return await self._line.ask("measure depth", take, within=_GRAB)
+
+    async def stop(self) -> None:
+        """Nothing moves here."""
+
+    async def close(self) -> None:
+        await self._line.close()
+
+
+def _identity(link: _Link) -> Identity:
+    return Identity(
+        vendor="RealSense", model=link.told("name"), serial=link.told("serial_number"),
+        firmware=link.told("firmware_version"),
+    )  # fmt: skip
+
+
+CAMERA = Driver(
+    kind="depth camera", made=DepthCamera, opened=_Link, closed=_Link.close,
+    address={
+        "serial": "its serial number", "software": "which one of the vendor's library stands in for it",
+        "width": "of its pictures", "height": "of its pictures",
+    },
+    bus=("serial",), properties={"exposure": "ms", "gain": "", "frame": "count", "depth": "mm"},
+    needs=("pyrealsense2", "realsense"), maturity="emulated", emulator="realsense",
+)  # fmt: skip
+"""`realsense.camera`."""
