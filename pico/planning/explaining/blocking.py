@@ -8,7 +8,7 @@ from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.setup import Setup
 from pico.planning.checks.contacts import Contact, Spot, bases, ends_of, fingers, holds, mouth, starts_of
-from pico.staging.feedback.digraph import shortest_cycle
+from pico.staging.feedback.digraph import ordered, shortest_cycle
 
 
 @record
@@ -107,7 +107,7 @@ def ring_through(name: str, blocks: Iterable[Block]) -> tuple[Block, ...]:
     none."""
     between = {(block.blocker, block.blocked): block for block in blocks}
     blocked = {a: [b for c, b in between if c == a] for pair in between for a in pair}
-    ring = shortest_cycle(blocked, name, blocked) if name in blocked else None
+    ring = shortest_cycle(ordered(blocked), name, blocked) if name in blocked else None
     return tuple(between[a, b] for a, b in zip(ring, [*ring[1:], ring[0]], strict=True)) if ring else ()
 
 

@@ -9,6 +9,9 @@ from typing import Any
 
 from pico.staging.feedback.limit import WorkLeft
 
+SMALL = 2000
+"""Entries of a program up to which a node of it counts as one; of a larger one, whose linear programs are longer as
+well, it counts as the square of how many times larger that is."""
 CLOSE = 1e-5
 """Broken costs that differ by less than this, relatively, are alike: so far the solver's tolerances reach."""
 
@@ -65,13 +68,17 @@ class Cover:
         columns = np.array(sorted(variables), dtype=np.int32)
         self._highs.addRow(low, high, len(columns), columns, np.ones(len(columns)))
 
-    def relaxed(self) -> tuple[float, ...]:
-        """Return how far each variable is chosen in the cheapest choice where that may be in part, from 0 to 1; nothing
-        where there is none."""
+    def relaxed(self) -> tuple[tuple[float, ...], float]:
+        """Return how far each variable is chosen in the cheapest choice where that may be in part, from 0 to 1, and
+        what every choice costs at least; nothing and 0 where there is none."""
+        import highspy
+
         self._highs.setOptionValue("solve_relaxation", True)
         self._highs.run()
         self._highs.setOptionValue("solve_relaxation", False)
-        return tuple(self._highs.getSolution().col_value)
+        if self._highs.getModelStatus() != highspy.HighsModelStatus.kOptimal:
+            return (), 0.0
+        return tuple(self._highs.getSolution().col_value), self.rounded(self._highs.getInfo().objective_function_value)
 
     def solve(self, work: WorkLeft, start: frozenset[int] | None = None, known: float = 0.0) -> CoverAnswer:
         """Return the cheapest choice, or the best found until `work` is spent; `start` is a choice to begin with.
@@ -81,14 +88,15 @@ class Cover:
 
         highs = self._highs
         work.solves -= 1
-        highs.setOptionValue("mip_max_nodes", max(1, work.nodes))
+        each = max(1, (highs.getNumNz() // SMALL) ** 2)
+        highs.setOptionValue("mip_max_nodes", max(1, work.nodes // each))
         highs.setOptionValue("objective_target", known + CLOSE)
         if start is not None:
             values = np.array([float(v in start) for v in range(len(self.costs))])
             highs.setSolution(len(values), np.arange(len(values), dtype=np.int32), values)
         highs.run()
         info = highs.getInfo()
-        work.nodes -= max(0, info.mip_node_count)
+        work.nodes -= each * max(0, info.mip_node_count)
         if highs.getModelStatus() == highspy.HighsModelStatus.kInfeasible:
             return CoverAnswer(None, math.inf, True)
         return CoverAnswer(self._chosen(info), self.rounded(info.mip_dual_bound))

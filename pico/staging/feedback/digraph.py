@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from typing import TypeVar
 
 V = TypeVar("V", int, str)
@@ -23,15 +23,21 @@ def cyclic_components(succ: Successors[V]) -> list[list[V]]:
     return sorted(sorted(c) for c in strong_components(succ) if len(c) > 1 or c[0] in succ[c[0]])
 
 
-def shortest_cycle(succ: Successors[V], start: V, alive: Collection[V]) -> list[V] | None:
-    """Return a cycle with the fewest vertices through `start` within `alive`, or None; ties by least vertices."""
+def ordered(succ: Successors[V]) -> dict[V, list[V]]:
+    """Return the graph with its out-neighbors sorted."""
+    return {v: sorted(heads) for v, heads in succ.items()}
+
+
+def shortest_cycle(succ: Mapping[V, Sequence[V]], start: V, alive: Collection[V]) -> list[V] | None:
+    """Return a cycle with the fewest vertices through `start` within `alive`, or None; ties by which neighbor comes
+    first."""
     if start in succ[start]:
         return [start]
     parent = {start: start}
     queue = deque([start])
     while queue:
         v = queue.popleft()
-        for w in sorted(succ[v]):
+        for w in succ[v]:
             if w == start:
                 return _trace(parent, v)
             if w in alive and w not in parent:
@@ -51,10 +57,11 @@ def _trace(parent: Mapping[V, V], v: V) -> list[V]:
 def some_cycle(succ: Successors[V]) -> list[V] | None:
     """Return a cycle with the fewest vertices of the graph, or None where it has none."""
     best: list[V] | None = None
+    sorted_once = ordered(succ)
     for part in cyclic_components(succ):
         alive = set(part)
         for v in part:
-            cycle = shortest_cycle(succ, v, alive)
+            cycle = shortest_cycle(sorted_once, v, alive)
             if cycle and (best is None or len(cycle) < len(best)):
                 best = cycle
     return best

@@ -65,7 +65,9 @@ def solve_region(region: CoupledComponents, table: Literals, work: WorkLeft, ste
     bound = 0.0
     literals = sorted(b for i in region.members for b in bits(table.of(i)))
     cover, column = cover_of(literals, region.members, table), {b: n for n, b in enumerate(literals)}
-    given = _separated(region, table, pool, cover, column) if len(region.members) >= MANY else 0
+    given = 0
+    if len(region.members) >= MANY:
+        given, bound = _separated(region, table, pool, cover, column)
     while (best is None or not reached(cost(table, best), bound)) and not work.spent:
         given = _told(cover, pool, column, given)
         answer = cover.solve(work, None if best is None else frozenset(column[b] for b in bits(best)), bound)
@@ -86,13 +88,16 @@ def _told(cover: Cover, pool: Pool, column: Mapping[int, int], given: int) -> in
     return len(pool.clauses)
 
 
-def _separated(region: CoupledComponents, table: Literals, pool: Pool, cover: Cover, column: Mapping[int, int]) -> int:
+def _separated(
+    region: CoupledComponents, table: Literals, pool: Pool, cover: Cover, column: Mapping[int, int]
+) -> tuple[int, float]:
     """Add cycles to pool and program, as long as the relaxed program, rounded, leaves some that it itself denies;
-    return how many clauses the program has."""
-    given = 0
+    return how many clauses the program has, and what every choice costs at least."""
+    given, bound = 0, 0.0
     for _ in range(ROUNDS):
         given = _told(cover, pool, column, given)
-        share = cover.relaxed()
+        share, least = cover.relaxed()
+        bound = max(bound, least)
         if not share:
             break
         most = [
@@ -102,7 +107,7 @@ def _separated(region: CoupledComponents, table: Literals, pool: Pool, cover: Co
         pool.add(left_cycles(region.edges, sum(1 << b for b in set(most))))
         if all(sum(share[column[b]] for b in bits(c.escapes)) > 1 - CLOSE for c in pool.clauses[given:]):
             break
-    return given
+    return given, bound
 
 
 def _better(

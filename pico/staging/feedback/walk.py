@@ -10,7 +10,7 @@ import random
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from pico.staging.feedback.digraph import cyclic_components, shortest_cycle
+from pico.staging.feedback.digraph import cyclic_components, ordered, shortest_cycle
 from pico.staging.feedback.literals import Clause, LiteralArc, Literals, bits
 from pico.staging.feedback.shrink import successors
 
@@ -37,7 +37,7 @@ def left_cycles(edges: Sequence[LiteralArc], chosen: int) -> list[Clause]:
             rival = holding.get((edge.tail, edge.head))
             if rival is None or edge.escapes.bit_count() < rival.escapes.bit_count():
                 holding[edge.tail, edge.head] = edge
-    succ = successors(holding[key] for key in sorted(holding))
+    succ = ordered(successors(holding[key] for key in sorted(holding)))
     found: dict[int, Clause] = {}
     while parts := cyclic_components(succ):
         for part in parts:
@@ -49,7 +49,7 @@ def left_cycles(edges: Sequence[LiteralArc], chosen: int) -> list[Clause]:
                 clause = _clause([holding[a, b] for a, b in zip(cycle, cycle[1:] + cycle[:1], strict=True)])
                 found.setdefault(clause.escapes, clause)
             worst = max(part, key=lambda v: (hits[v], -v))
-            succ = {u: heads - {worst} for u, heads in succ.items() if u != worst}
+            succ = {u: [w for w in heads if w != worst] for u, heads in succ.items() if u != worst}
     return list(found.values())
 
 
