@@ -6,7 +6,7 @@ import asyncio
 import os
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -15,6 +15,9 @@ from pico.diagnostics import PicoError, error
 from ..session import Session
 from ..views import serving as view
 
+if TYPE_CHECKING:
+    from pico.server.store.books import Books
+
 Folder = Annotated[
     Path | None, typer.Option("--folder", metavar="DIR", help="Where its books are; of this user without it.")
 ]
@@ -22,6 +25,9 @@ Host = Annotated[str, typer.Option("--host", metavar="ADDRESS", help="Where to l
 Port = Annotated[int, typer.Option("--port", metavar="N", min=0, max=65535, help="At which port, 0 for a free one.")]
 Certificate = Annotated[Path | None, typer.Option("--certificate", metavar="FILE", help="For TLS, in PEM form.")]
 Key = Annotated[Path | None, typer.Option("--key", metavar="FILE", help="Of the certificate, in PEM form.")]
+Demo = Annotated[
+    str | None, typer.Option("--demo", metavar="NAME", help="With a bench in the twin: of an example, such as shel.")
+]
 Names = Annotated[
     list[str] | None,
     typer.Option("--name", metavar="HOST", help="A name that it answers to, besides localhost; may be given again."),
@@ -30,7 +36,7 @@ Names = Annotated[
 
 def serve(
     context: typer.Context, folder: Folder = None, host: Host = "127.0.0.1", port: Port = 8700,
-    certificate: Certificate = None, key: Key = None, name: Names = None,
+    certificate: Certificate = None, key: Key = None, name: Names = None, demo: Demo = None,
 ) -> None:  # fmt: skip
     """Serve benches to people elsewhere, until Ctrl-C or SIGTERM: the coordinator of a laboratory.
 
@@ -39,25 +45,28 @@ def serve(
     TLS alone. Exit code 5: something else listens there.
 
     Examples:
-      pico serve
+      pico serve --demo shel
       pico serve --host 0.0.0.0 --name lab.org --certificate lab.pem --key lab.key
     """
     if missing := [module for module in ("fastapi", "uvicorn", "sqlalchemy", "websockets") if not find_spec(module)]:
         text = f"serving needs {', '.join(missing)}"
         raise PicoError(error("missing-extra", text, hint="pip install 'pico-lab[server]'"))
     session = Session.of(context)
-    place = session.folder / folder if folder else _own()
-    asyncio.run(_serve(session, place, (host, port), (certificate, key), frozenset(name or ())))
+    if demo and certificate:
+        raise PicoError(error("usage", "a demonstration is for this machine alone", hint="leave `--certificate` out"))
+    place = session.folder / folder if folder else _own(f"demo-{demo}" if demo else "coordinator")
+    asyncio.run(_serve(session, place, (host, port), (certificate, key), frozenset(name or ()), demo))
 
 
-def _own() -> Path:
+def _own(name: str) -> Path:
     state = os.environ.get("XDG_STATE_HOME")
-    return (Path(state) if state else Path.home() / ".local/state") / "pico/coordinator"
+    return (Path(state) if state else Path.home() / ".local/state") / "pico" / name
 
 
 async def _serve(
-    session: Session, folder: Path, at: tuple[str, int], tls: tuple[Path | None, Path | None], names: frozenset[str]
-) -> None:
+    session: Session, folder: Path, at: tuple[str, int], tls: tuple[Path | None, Path | None], names: frozenset[str],
+    demo: str | None,
+) -> None:  # fmt: skip
     from pico.server.app import create_app
     from pico.server.guard.addresses import LOOPBACK, is_loopback
     from pico.server.running import listening, server
@@ -70,11 +79,38 @@ async def _serve(
         try:
             known = LOOPBACK | names | (frozenset() if is_loopback(at[0]) else {at[0]})
             serving = server(create_app(books, known), *tls)
-            port = listener.getsockname()[1]
             shown = min(names) if names and secure else "localhost" if is_loopback(at[0]) else at[0]
-            url = f"{'https' if secure else 'http'}://{f'[{shown}]' if ':' in shown else shown}:{port}"
-            session.show(view, url, folder, first_code(books.people))
-            await serving.serve(sockets=[listener])
+            bare = f"[{shown}]" if ":" in shown else shown
+            url = f"{'https' if secure else 'http'}://{bare}:{listener.getsockname()[1]}"
+            if demo is None:
+                session.show(view, url, folder, first_code(books.people))
+                await serving.serve(sockets=[listener])
+            else:
+                await _demonstrate(session, serving, listener, books, url, demo)
         finally:
             books.close()
-    session.say("The coordinator has ended; runs go on at their edges.")
+    session.say(
+        "The coordinator has ended; runs go on at their edges." if demo is None else "The demonstration is over."
+    )
+
+
+async def _demonstrate(session: Session, serving: Any, listener: Any, books: Books, url: str, lab: str) -> None:
+    """Serve with a bench that is not there."""
+    from ..runs.demonstration import Demonstration
+
+    shown = Demonstration(lab, books.folder, books, url)
+    shown.make()
+    going = asyncio.create_task(serving.serve(sockets=[listener]))
+    try:
+        while not serving.started and not going.done():
+            await asyncio.sleep(0.01)
+        beginning = asyncio.create_task(shown.begin())
+        await asyncio.wait([beginning, going], return_when=asyncio.FIRST_COMPLETED)
+        if beginning.done():
+            session.show(view, url, books.folder, None, beginning.result())
+        beginning.cancel()
+        await going
+    finally:
+        serving.should_exit = True
+        await asyncio.to_thread(shown.end)
+        await asyncio.wait([going])

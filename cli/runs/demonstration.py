@@ -1,0 +1,93 @@
+"""A laboratory on the network that is not there: an example lab in the twin, its edge in a process of its own."""
+
+from __future__ import annotations
+
+import asyncio
+import subprocess
+import sys
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import PicoError, error
+
+if TYPE_CHECKING:
+    from pico.server.store.books import Books
+
+PERSON = "demo"
+"""Whom the code that is printed lets in."""
+JOINS = 120.0
+"""Seconds in which the edge is connected."""
+ENDS = 20.0
+"""Seconds in which it ends: what moves comes to its safe end."""
+
+
+@dataclass(frozen=True)
+class Demonstrated:
+    """An example `lab`, its `bench` at the coordinator, and the code by which a client logs in there."""
+
+    lab: str
+    bench: str
+    code: str
+
+
+class Demonstration:
+    """The bench of an example `lab` whose files are in `folder`, at a coordinator that serves `books` at `url`."""
+
+    def __init__(self, lab: str, folder: Path, books: Books, url: str) -> None:
+        self._lab, self._root, self._books, self._url = lab, folder / lab, books, url
+        self._process: subprocess.Popen[bytes] | None = None
+
+    def make(self) -> None:
+        """Make the lab where it is not there yet; raises PicoError for an example that there is not."""
+        if not (self._root / ".git").exists():
+            from pico.history.examples.example import make_example
+
+            make_example(self._lab, self._root)
+
+    async def begin(self) -> Demonstrated:
+        """Enrol the bench, if it is not yet, and connect its edge; raises PicoError."""
+        from pico.edge.network.enrolment import enrol, read_enrolment
+        from pico.server.store.edges import Edges
+
+        from pico.server.access.principal import ROLES, Right
+        from pico.server.store.first import ADMIN
+
+        books, bench = self._books, f"{self._lab}/bench1"
+        known = await asyncio.to_thread(read_enrolment, self._root)
+        if known is None or known.url != self._url or bench not in books.leases.enrolled():
+            code, _ = await books.do(Edges(books.database).invited, bench, ADMIN)
+            await asyncio.to_thread(enrol, self._root, self._url, code)
+        rights = [Right("*", "admin"), *(Right(self._lab, role) for role in ROLES if role != "admin")]
+        await books.do(books.people.settled, PERSON, rights, by=ADMIN)
+        made = await books.do(books.people.issued, PERSON, 86400.0, by=ADMIN, kind="code", label="demonstration")
+        words = [sys.executable, "-m", "pico_cli", "-C", str(self._root), "edge"]
+        self._process = subprocess.Popen(
+            words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True
+        )
+        await self._joined(bench)
+        return Demonstrated(self._lab, bench, made.secret)
+
+    async def _joined(self, bench: str) -> None:
+        """Wait until the edge has been heard of; raises PicoError where it ends before."""
+        assert self._process is not None
+        with suppress(TimeoutError):
+            async with asyncio.timeout(JOINS):
+                while not self._books.leases.met(bench):
+                    if self._process.poll() is not None:
+                        raise PicoError(error("edge", f"the edge of {bench} has ended ({self._process.returncode})"))
+                    await asyncio.sleep(0.1)
+                return
+        raise PicoError(error("edge", f"the edge of {bench} did not connect within {JOINS:g} s"))
+
+    def end(self) -> None:
+        """End the edge, and wait until it has."""
+        if self._process is None:
+            return
+        self._process.terminate()
+        try:
+            self._process.wait(ENDS)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
