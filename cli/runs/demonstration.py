@@ -49,9 +49,8 @@ class Demonstration:
     async def begin(self) -> Demonstrated:
         """Enrol the bench, if it is not yet, and connect its edge; raises PicoError."""
         from pico.edge.network.enrolment import enrol, read_enrolment
-        from pico.server.store.edges import Edges
-
         from pico.server.access.principal import ROLES, Right
+        from pico.server.store.edges import Edges
         from pico.server.store.first import ADMIN
 
         books, bench = self._books, f"{self._lab}/bench1"

@@ -16,7 +16,7 @@ from pico.edge.network import messages
 from pico.server.guard.gatekeeper import BODY, LONG_BODY
 from pico.server.relay.dispatch import Call, Dispatcher
 from pico.server.relay.hub import Gone
-from pico.server.routes.admitting import Admitted, admit, routed
+from pico.server.routes.admitting import FRESH, Admitted, admit, routed
 
 router = routed()
 MANY = 64
@@ -35,8 +35,11 @@ async def link(socket: WebSocket, lab: str, bench: str) -> None:
         return
     await socket.accept()
     client = _Client(socket, admitted, f"{lab}/{bench}")
+    tasks = [asyncio.create_task(client.serve()), asyncio.create_task(client.known())]
     try:
-        await client.serve()
+        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
+        for task in done:
+            task.result()
     except PicoError as exc:
         with suppress(RuntimeError, WebSocketDisconnect):
             await socket.send_text(messages.text(wire.failure(exc)))
@@ -44,6 +47,9 @@ async def link(socket: WebSocket, lab: str, bench: str) -> None:
     except (WebSocketDisconnect, RuntimeError, KeyError):
         pass
     finally:
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.shield(client.gone())
 
 
@@ -75,6 +81,12 @@ class _Client:
                 self._close(number)
             else:
                 await self._called(number, said)
+
+    async def known(self) -> None:
+        """Raise PicoError once the token is over, also where nothing is said."""
+        while True:
+            await asyncio.sleep(FRESH)
+            self._admitted.principal()
 
     async def _received(self) -> str:
         message = await self._socket.receive()

@@ -36,11 +36,6 @@ class Leases:
         with self._database.reading() as connection:
             return tuple(connection.execute(select(benches.c.bench).order_by(benches.c.bench)).scalars())
 
-    def met(self, bench: str) -> bool:
-        """Return whether the edge of a bench has been heard of since the coordinator began."""
-        with self._database.reading() as connection:
-            return bool(connection.execute(select(benches.c.met).where(benches.c.bench == bench)).scalar())
-
     def shown(self, bench: str) -> tuple[Lease, float, float]:
         """Return a bench's row, the time, and since when who has it does (both [s]); raises PicoError where there is
         no such bench."""

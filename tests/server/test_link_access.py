@@ -1,0 +1,136 @@
+"""What is said over the socket of a bench: nothing without its role, and nothing that makes no sense, does anything."""
+
+from __future__ import annotations
+
+import json
+import logging
+import random
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from typing import Any
+
+import pytest
+from coordinators import BENCH, Served, served
+from edges import Connected, connected
+from test_access import dump, lacking
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection
+
+from pico.edge.link import wire
+from pico.edge.network.roles import ROLES
+from pico.history.examples.example import make_example
+
+LINK = f"/api/benches/{BENCH}/link"
+MESSAGES = 10_000
+HELLO = {"hello": {"session": "s1", "version": "test"}}
+
+
+@pytest.fixture(scope="module")
+def bench(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Served, Connected]]:
+    """A coordinator with the edge of the example in the twin."""
+    root = tmp_path_factory.mktemp("lab") / "shel"
+    make_example("shel", root)
+    with served(tmp_path_factory.mktemp("coordinator")) as coordinator, connected(coordinator, root) as edge:
+        while not coordinator.books.leases.enrolled() or not coordinator.books.leases.met(BENCH):
+            time.sleep(0.01)
+        coordinator.loosen()
+        yield coordinator, edge
+
+
+@contextmanager
+def opened(served: Served, token: str) -> Iterator[ClientConnection]:
+    """Open a socket that has said hello."""
+    with served.watch(LINK, token) as socket:
+        socket.send(json.dumps(HELLO))
+        assert "hello" in json.loads(socket.recv(timeout=30))
+        yield socket
+
+
+def standing(edge: Connected) -> Any:
+    """Return all that can have moved, and what was begun."""
+    memory = edge.edge.memory
+    return edge.edge.world.placements(), memory and (memory.runs(), memory.records())
+
+
+def test_no_call_over_a_socket_is_made_without_its_role(bench: tuple[Served, Connected]) -> None:
+    coordinator, edge = bench
+    who = {role: coordinator.person(f"x-{role.replace(':', '.')}", *lacking(role, "shel"), "viewer@shel")
+           for role in set(ROLES.values()) if role not in (None, "viewer")}  # fmt: skip
+    before, stood = dump(coordinator), standing(edge)
+    for role, token in who.items():
+        with opened(coordinator, token) as socket:
+            for number, call in enumerate(call for call in wire.CALLS if ROLES[call] == role):
+                socket.send(json.dumps({"id": number, "call": call, "with": []}))
+                answer = json.loads(socket.recv(timeout=30))
+                assert (answer["id"], answer["exit"], answer["error"][0]["code"]) == (number, 7, "forbidden"), call
+    assert (dump(coordinator), standing(edge)) == (before, stood)
+
+
+def test_a_socket_ends_with_its_token_and_gives_back_what_it_held(bench: tuple[Served, Connected]) -> None:
+    coordinator, _ = bench
+    token = coordinator.person("anna", "operator@shel")
+    with opened(coordinator, token) as socket:
+        socket.send(json.dumps({"id": 1, "call": "acquire", "with": ["anna", 0.0]}))
+        assert "value" in json.loads(socket.recv(timeout=30))
+        coordinator.books.people.settled("anna", [], by="root", disabled=True)
+        assert json.loads(socket.recv(timeout=30))["error"][0]["code"] == "unauthenticated"
+        with pytest.raises(ConnectionClosed):
+            socket.recv(timeout=30)
+    while coordinator.books.leases.shown(BENCH)[0].grant is not None:
+        time.sleep(0.01)
+
+
+def nonsense(draw: random.Random) -> str | bytes:
+    """Return a message that nobody should send."""
+    junk: list[Any] = [None, True, -1, 1 << 80, 1e308, "", "x" * 300, "\x00", "../..", [], {}, [[]], {"a": {}}, "NaN"]
+    call = draw.choice([*wire.CALLS, "__init__", "close", "memory.__class__", "world.__dict__", "served", "device"])
+    broken = {"unsaid": draw.choice(junk)}  # no operation, plan, arming or frame is like that
+    count = len(wire.CALLS[call][0]) if call in wire.CALLS else 0
+    arguments: Any = [draw.choice(junk) for _ in range(count + draw.randrange(1, 4))]  # more than there should be
+    number = draw.randrange(9)
+    calls: list[Any] = [
+        {"id": number, "call": call, "with": arguments},
+        {"id": number, "call": call, "with": [broken, *arguments[:count][1:]]},
+        {"id": number, "call": call, "with": draw.choice(junk)},
+        {"id": draw.choice([True, -1, 1 << 80]), "call": draw.choice(junk), "with": arguments},
+        {"id": number, "close": draw.choice(junk), "call": call, "with": arguments},
+    ]
+    if draw.random() < 0.95:
+        return json.dumps(draw.choice(calls))
+    text = json.dumps(draw.choice([  # the rest ends the socket
+        {"id": draw.choice(junk), "call": call, "with": arguments},
+        {"hello": draw.choice([*junk, {"session": draw.choice(junk)}])},
+        draw.choice(junk),
+        {draw.choice(["poll", "lease", "value", "next", "nonce"]): draw.choice(junk)},
+    ]))  # fmt: skip
+    broken_off = text[: draw.randrange(len(text) + 1)]
+    deep, odd = "[" * draw.randrange(100_000), text.replace("1", "NaN").replace('"', "\ud7ff")
+    return draw.choice([text, text, broken_off, draw.randbytes(draw.randrange(200)), deep, odd])
+
+
+@pytest.mark.slow
+def test_thousands_of_senseless_messages_crash_nothing_and_move_nothing(
+    bench: tuple[Served, Connected], caplog: pytest.LogCaptureFixture
+) -> None:
+    coordinator, edge = bench
+    tokens = [coordinator.person("ben", "viewer@shel"), coordinator.person("eve", "operator", "teleop", "laser:enable")]
+    stood, draw = standing(edge), random.Random(22)
+    caplog.set_level(logging.WARNING)
+    read = ended = 0
+    while read < MESSAGES:
+        with opened(coordinator, tokens[read % 2]) as socket, suppress(ConnectionClosed):
+            ended += 1
+            for _ in range(50):
+                read += 1  # it was, once the next one is answered, or the socket ends
+                socket.send(nonsense(draw))
+                socket.send(json.dumps({"id": 10_000 + read, "call": "nothing", "with": []}))
+                while json.loads(socket.recv(timeout=60)).get("id") != 10_000 + read:
+                    pass
+    assert ended > MESSAGES / 50
+    assert standing(edge)[0] == stood[0]
+    with opened(coordinator, tokens[1]) as socket:
+        socket.send(json.dumps({"id": 1, "call": "describe", "with": []}))
+        assert json.loads(socket.recv(timeout=60))["value"]["name"] == "sim"
+    assert coordinator.ask("GET", "/api/health")[0] == 200
+    assert [record.getMessage() for record in caplog.records if record.levelno >= logging.ERROR] == []
