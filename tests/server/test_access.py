@@ -14,6 +14,7 @@ from websockets.exceptions import InvalidStatus
 
 from pico.server.access.principal import ROLES, Principal, Right
 from pico.server.app import ROUTERS, create_app
+from pico.server.guard.rates import Rate
 from pico.server.routes.admitting import ROLE
 from pico.server.store.books import books_in
 from pico.server.store.tables import metadata
@@ -126,6 +127,15 @@ def test_what_a_viewer_tries_over_and_over_is_slowed_down(coordinator: Served) -
     statuses = [coordinator.ask("GET", "/api/whoami", "guessed")[0] for _ in range(60)]
     assert statuses[:30] == [401] * 30 and 429 in statuses[30:]
     assert coordinator.ask("GET", "/api/health")[0] == 200
+    token = coordinator.person("anna", "viewer@shel")
+    assert coordinator.ask("GET", "/api/whoami", token)[0] == 200, "others from her address do not shut her out"
+    coordinator.app.state.requests = Rate(0.0, 3)
+    assert [coordinator.ask("GET", "/api/whoami", token)[0] for _ in range(4)] == [200, 200, 200, 429]
+    coordinator.bench()
+    assert coordinator.ask("POST", f"/api/benches/{BENCH}/calls/stop", coordinator.person("eve"), {})[0] == 403
+    assert coordinator.ask("POST", f"/api/benches/{BENCH}/calls/stop", token, b"{")[0] == 422, (
+        "it is heard nevertheless"
+    )
 
 
 def test_pages_of_strangers_are_refused_by_host_and_by_origin(coordinator: Served) -> None:

@@ -57,6 +57,8 @@ def test_git_pushes_and_fetches_as_its_role_lets_it(coordinator: Served, checkou
         git(checkout, "ls-remote", url(coordinator, token), code=128)
     git(checkout, "push", "--quiet", url(coordinator, operator), "main")
     git(checkout, "reset", "--quiet", "--hard", "HEAD~1")
+    git(checkout, "push", "--quiet", url(coordinator, operator), "main:web/anna")
+    git(checkout, "push", url(coordinator, operator), "main:web/ben", code=1)
     for words in (("--force", "main"), ("--delete", "main")):
         git(checkout, "push", url(coordinator, operator), *words, code=1)
     git(checkout, "ls-remote", url(coordinator, coordinator.person("root", "admin"), "nowhere"), code=128)

@@ -67,6 +67,7 @@ async def answered(
     environment = _environment() | {
         "GIT_PROJECT_ROOT": str(path.parent), "GIT_HTTP_EXPORT_ALL": "1", "GATEWAY_INTERFACE": "CGI/1.1",
         "PATH_INFO": f"/{path.name}/{request['service']}", **{k: v for k, v in request.items() if k != "service"},
+        **_own_branches(request["REMOTE_USER"]),
     }  # fmt: skip
     pipe = asyncio.subprocess.PIPE
     process = await asyncio.create_subprocess_exec(
@@ -84,6 +85,14 @@ async def answered(
         raise
     status = int(headers.pop("status", "200" if headers else "500").split()[0])
     return status, headers, _pieces(process, feeding)
+
+
+def _own_branches(who: str) -> dict[str, str]:
+    """Return settings by which nobody pushes to `web/NAME` of somebody else."""
+    values = ("refs/heads/web/", f"!refs/heads/web/{who}")
+    pairs = {f"GIT_CONFIG_{what}_{n}": text for n, value in enumerate(values)
+             for what, text in (("KEY", "receive.hideRefs"), ("VALUE", value))}  # fmt: skip
+    return {"GIT_CONFIG_COUNT": str(len(values)), **pairs}
 
 
 async def _pieces(process: asyncio.subprocess.Process, feeding: asyncio.Task[None]) -> AsyncIterator[bytes]:
