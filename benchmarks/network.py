@@ -1,0 +1,249 @@
+"""How fast a lab on the network answers: `python benchmarks/network.py`, on the loopback of this machine.
+
+Prints the round trip of a call through coordinator and edge (one that is relayed alone, and a command, which is written
+by both before it is done), how long a lease that is stolen takes to be fenced for, the share of a core that the
+coordinator takes with 100 edges that ask each second and renew a lease each every two, and the rate at which 20 clients
+see one bench. Exit code 3 where a figure misses its bar (p99 of a round trip 5 ms, of stealing 0.5 s, half a core,
+30 Hz), 1 where an answer is wrong.
+"""
+
+from __future__ import annotations
+
+import argparse
+import asyncio
+import json
+import os
+import resource
+import statistics
+import sys
+import tempfile
+import time
+from collections.abc import Awaitable, Callable
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
+
+from network_bench import BENCH, TOKEN, Network, answers, forked, until  # noqa: E402
+
+
+class Client:
+    """A client's socket, one call at a time."""
+
+    def __init__(self, socket: Any) -> None:
+        self.socket, self.number = socket, 0
+
+    async def ask(self, call: str, *arguments: Any) -> Any:
+        """Return what a call gives; raises RuntimeError for what went wrong."""
+        self.number += 1
+        await self.socket.send(json.dumps({"id": self.number, "call": call, "with": list(arguments)}))
+        while True:
+            said = json.loads(await self.socket.recv())
+            if said["id"] == self.number:
+                if "error" in said:
+                    raise RuntimeError(said["error"])
+                return said["value"]
+
+
+async def client(port: int, session: str, bench: str = BENCH) -> Client:
+    """Connect a client."""
+    from websockets.asyncio.client import connect
+
+    socket = await connect(
+        f"ws://127.0.0.1:{port}/api/benches/{bench}/link", proxy=None, compression=None,
+        additional_headers={"Authorization": f"Bearer {TOKEN}"}, max_size=None,
+    )  # fmt: skip
+    await socket.send(json.dumps({"hello": {"session": session}}))
+    await socket.recv()
+    return Client(socket)
+
+
+async def timed(count: int, act: Callable[[int], Awaitable[Any]]) -> list[float]:
+    """Return how long each of so many acts took [ms]."""
+    found = []
+    for number in range(count):
+        began = time.perf_counter()
+        await act(number)
+        found.append(1000 * (time.perf_counter() - began))
+    return found
+
+
+def p99(found: list[float]) -> float:
+    """Return what 99 of a hundred do not exceed."""
+    return sorted(found)[min(len(found) - 1, int(0.99 * len(found)))]
+
+
+def told(what: str, found: list[float], unit: str = "ms") -> None:
+    """Print a distribution."""
+    print(
+        f"{what}: median {statistics.median(found):.2f} {unit}, p99 {p99(found):.2f} {unit} of {len(found)}", flush=True
+    )
+
+
+async def trips(network: Network, count: int) -> list[float]:
+    """Measure round trips; return those of commands [ms]."""
+    one = await client(network.port, "trips")
+    told("relayed", await timed(count, lambda _: one.ask("unended")))
+    lease = await one.ask("acquire", "a benchmark", 10.0)
+    operation = {
+        "id": "op1", "primitive": "set", "component": "p1", "arguments": {"tunable": "angle", "to": 10.0},
+        "reason": {"kind": "asked"},
+    }  # fmt: skip
+    first = await one.ask("execute", operation, "r0/op1/1", lease)
+    assert first["outcome"] == "done", first
+    found = await timed(count, lambda _: one.ask("execute", operation, "r0/op1/1", lease))
+    told("a command that is known", found)
+    await one.socket.close()
+    return found
+
+
+async def stolen(network: Network, count: int) -> list[float]:
+    """Measure how long the edge takes to fence for a lease that is stolen [ms]."""
+    from pico.edge.network.asking import ask
+    from pico.edge.network.remotes import Remote
+
+    remote, at = Remote(f"http://127.0.0.1:{network.port}"), f"/benches/{BENCH}/lease"
+
+    async def steal(number: int) -> None:
+        body = {"session": f"thief{number}", "reason": "a benchmark"}
+        made = await asyncio.to_thread(ask, remote, "POST", f"{at}/steal", body)
+        while True:
+            holder = (await asyncio.to_thread(ask, remote, "GET", at))["holder"]
+            if holder and holder["fenced"] and holder["token"] >= made.get("token", 0):
+                return
+            await asyncio.sleep(0.002)
+
+    found = await timed(count, steal)
+    told("stolen until fenced", found)
+    return found
+
+
+def edges(port: int, keys: dict[str, str], seconds: float) -> None:
+    """Be so many edges, which only ask; each with a client that renews."""
+    from pico.edge.network import messages
+
+    async def one(bench: str, key: str) -> None:
+        from websockets.asyncio.client import connect
+
+        secret = bytes.fromhex(key)
+        mine = "0" * 32
+        shown = messages.proof(secret, "dials", bench, mine, "")
+        async with connect(
+            f"ws://127.0.0.1:{port}/api/edge/link", proxy=None, compression=None,
+            additional_headers={"Authorization": f"{messages.SCHEME} {bench} {mine} {shown}"},
+        ) as link:  # fmt: skip
+            theirs = json.loads(await link.recv())["nonce"]
+            proof = messages.proof(secret, "edge", bench, mine, theirs)
+            await link.send(json.dumps({"proof": proof, "hello": {"fenced": 0, "records": []}}))
+            fenced, until_ = 0, time.monotonic() + seconds
+            while time.monotonic() < until_:
+                # a run that goes on by itself is renewed by what its edge says, every two seconds
+                said = {"asked": 1, "fenced": fenced, "taken": 0, "busy": True, "moving": "r"}
+                await link.send(json.dumps({"poll": said}))
+                while "asked" not in (lease := json.loads(await link.recv())["lease"]):
+                    pass
+                fenced = max(fenced, lease["token"])
+                await asyncio.sleep(1.0)
+
+    async def every() -> None:
+        await asyncio.gather(*(one(bench, key) for bench, key in keys.items()))
+
+    asyncio.run(every())
+
+
+def many(folder: Path, count: int, seconds: float) -> tuple[float, int]:
+    """Return the share of a core that a coordinator takes with so many edges, and how many leases it then renews."""
+    from network_bench import coordinator, free_port
+
+    from pico.control.leases import Asker
+    from pico.server.store.books import books_in
+    from pico.server.store.edges import Edges
+
+    books, keys, port = books_in(folder), dict[str, str](), free_port()
+    for number in range(count):
+        bench = f"lab{number}/bench1"
+        code, _ = Edges(books.database).invited(bench, "benchmark")
+        keys[bench] = f"{number:064x}"
+        Edges(books.database).enrolled(code, keys[bench])
+    books.close()
+    serving = forked(lambda: coordinator(folder, port))
+    until(lambda: answers(port), 60)
+    asking = forked(lambda: edges(port, keys, seconds + 30))
+    books = books_in(folder)
+    try:
+        until(lambda: all(books.leases.met(bench) for bench in keys), 60)
+        for bench in keys:
+            books.leases.asked(bench, Asker("anna/s", "anna"))
+        time.sleep(3.0)
+        before, began = _spent(serving), time.monotonic()
+        time.sleep(seconds)
+        share = (_spent(serving) - before) / (time.monotonic() - began)
+        kept = sum(1 for bench in keys if (grant := books.leases.shown(bench)[0].grant) and grant.fenced)
+        return share, kept
+    finally:
+        books.close()
+        for child in (serving, asking):
+            os.kill(child, 9)
+            os.waitpid(child, 0)
+
+
+def _spent(process: int) -> float:
+    """Return the seconds of a core that a process has taken."""
+    words = Path(f"/proc/{process}/stat").read_text().rsplit(") ", 1)[1].split()
+    return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
+
+
+async def watched(network: Network, count: int, seconds: float) -> float:
+    """Return how often a second the slowest of so many clients sees the bench, each asking 30 times a second."""
+    clients = [await client(network.port, f"watcher{n}") for n in range(count)]
+    began = time.monotonic()
+
+    async def watch(one: Client) -> int:
+        seen = 0
+        while (now := time.monotonic()) < began + seconds:
+            await one.ask("unended")
+            seen += 1
+            await asyncio.sleep(max(0.0, began + seen / 30 - now))
+        return seen
+
+    seen = await asyncio.gather(*(watch(one) for one in clients))
+    for one in clients:
+        await one.socket.close()
+    return min(seen) / seconds
+
+
+def main() -> int:
+    """Measure."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--trips", type=int, default=2000)
+    parser.add_argument("--steals", type=int, default=200)
+    parser.add_argument("--edges", type=int, default=100)
+    parser.add_argument("--watchers", type=int, default=20)
+    parser.add_argument("--seconds", type=float, default=20.0, help="of edges and watchers")
+    given = parser.parse_args()
+    resource.setrlimit(resource.RLIMIT_NOFILE, (resource.getrlimit(resource.RLIMIT_NOFILE)[1],) * 2)
+    missed = []
+    with tempfile.TemporaryDirectory() as temporary:
+        network = Network(Path(temporary), emulated=False)
+        network.start()
+        try:
+            if not network.ready():
+                print("the edge did not come to the coordinator")
+                return 1
+            missed += [p99(asyncio.run(trips(network, given.trips))) > 5.0]
+            missed += [asyncio.run(watched(network, given.watchers, given.seconds)) < 29.0]
+            print(f"{given.watchers} clients at 30 Hz: {'missed' if missed[-1] else 'each'}", flush=True)
+            missed += [p99(asyncio.run(stolen(network, given.steals))) > 500.0]
+        finally:
+            network.close()
+        share, kept = many(Path(temporary) / "many", given.edges, given.seconds)
+        print(f"{given.edges} edges: {share:.2f} of a core, {kept} leases go on", flush=True)
+        if kept != given.edges:
+            return 1
+        missed += [share > 0.5]
+    return 3 if any(missed) else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,306 @@
+"""The processes of a lab on the network, each forked from this one: the emulated table with its controllers, edge,
+coordinator, the link between these two, and clients. Each may be killed, frozen and started anew."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+import pickle
+import secrets
+import shutil
+import signal
+import socket
+import sys
+import threading
+import time
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+ROOT = Path(__file__).resolve().parent.parent
+BENCH, TOKEN = "shel/bench1", "of-a-benchmark"
+
+
+def forked(work: Callable[[], None]) -> int:
+    """Do something in a process of its own, until it is killed; return its number."""
+    child = os.fork()
+    if child:
+        return child
+    try:
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            signal.signal(number, signal.SIG_DFL)
+        work()
+    except BaseException as exc:
+        print(f"{work!r} ended: {exc!r}", file=sys.stderr, flush=True)
+    finally:
+        os._exit(1)
+
+
+def free_port() -> int:
+    """Return a port of 127.0.0.1 that nobody listens at."""
+    with socket.create_server(("127.0.0.1", 0)) as found:
+        return int(found.getsockname()[1])
+
+
+@dataclass
+class Clock:
+    """The clock of the emulated table, as another process reads it: both go by the machine's monotonic one."""
+
+    began: float
+    since: float
+    pace: float
+
+    def now(self) -> float:
+        return self.since + (time.monotonic() - self.began) * self.pace
+
+    def store(self) -> None:
+        """It is kept by the process that has it."""
+
+    def pull(self, device: str, pulled: bool) -> None:
+        raise NotImplementedError
+
+
+@dataclass
+class Entries:
+    """The devices with the addresses that lead to their emulators."""
+
+    entries: dict[str, Any]
+
+    def close(self) -> None:
+        """They are another process's."""
+
+
+def table(root: Path, note: Path) -> None:
+    """Have the emulated table in this process, kept in `root`, and write what leads there."""
+    from pico.backends.emulated.bench import brought_up
+    from pico.backends.instruments import emulated
+    from pico.edge import own_lab
+
+    lab = own_lab.proposed(root)
+    assert lab is not None
+    setup = own_lab.setup_of(lab)
+    devices = dict(setup.wiring.devices) if setup.wiring else {}
+    world, running = brought_up(setup, root, emulated(devices))
+    clock = Clock(time.monotonic(), world.now(), world.pace)
+    partial = note.with_suffix(".part")
+    partial.write_bytes(pickle.dumps((clock, running.entries)))
+    partial.replace(note)
+    while True:
+        time.sleep(0.1)
+        world.store()
+
+
+def edge(root: Path, note: Path | None) -> None:
+    """Serve the bench of the lab in `root`: the table that `note` leads to, or a simulated one."""
+    from pico.backends.hardware.opening import bench
+    from pico.edge import own_lab
+    from pico.edge.lease import utc_now
+    from pico.edge.link.server import edge_of, serve
+    from pico.edge.local import LocalEdge
+    from pico.edge.network.enrolment import read_enrolment
+    from pico.edge.network.uplink import Uplink
+
+    enrolment = read_enrolment(root)
+    assert enrolment is not None
+    if note is None:
+        found = edge_of(root, "sim", "kinematic")
+    else:
+        lab = own_lab.read(root) or own_lab.proposed(root)
+        assert lab is not None
+
+        def bring_up(*_: Any) -> Any:
+            clock, entries = pickle.loads(note.read_bytes())
+            return clock, Entries(entries)
+
+        found = LocalEdge(
+            own_lab.setup_of(lab), root, lambda s: bench(s, root, "emulated", "kinematic", utc_now, bring_up), lab
+        )
+    uplink = Uplink(found, enrolment)
+    asyncio.run(serve(found, beside=uplink.run))
+
+
+def coordinator(folder: Path, port: int) -> None:
+    """Serve the books in a folder."""
+    from pico.server.app import create_app
+    from pico.server.running import listening, server
+    from pico.server.store.books import books_in
+
+    asyncio.run(server(create_app(books_in(folder))).serve(sockets=[listening("127.0.0.1", port)]))
+
+
+def link(port: int, to: int) -> None:
+    """Hand bytes on between two ports: killed, both ends are cut off; frozen, nothing comes through."""
+
+    async def piped(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        with suppress(OSError):
+            while data := await reader.read(65536):
+                writer.write(data)
+                await writer.drain()
+        writer.close()
+
+    async def client(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        try:
+            there, back = await asyncio.open_connection("127.0.0.1", to)
+        except OSError:
+            writer.close()
+            return
+        await asyncio.gather(piped(reader, back), piped(there, writer))
+
+    async def serve() -> None:
+        async with await asyncio.start_server(client, "127.0.0.1", port):
+            await asyncio.Event().wait()
+
+    asyncio.run(serve())
+
+
+@dataclass
+class Network:
+    """The lab in `folder`, and the processes that serve it by name. `emulated`: its table is emulated, in a process of
+    its own."""
+
+    folder: Path
+    emulated: bool
+    running: dict[str, int] = field(default_factory=dict)
+    frozen: set[str] = field(default_factory=set)
+
+    def __post_init__(self) -> None:
+        from pico.history.examples.example import make_example
+
+        self.port, self.far = free_port(), free_port()
+        self.beside, self.checkout, self.books = (self.folder / n for n in ("beside", "checkout", "books"))
+        make_example("shel", self.beside)
+        make_example("shel", self.checkout)
+        if self.emulated:
+            for folder in (self.beside, self.checkout):
+                shutil.copy(ROOT / "examples" / "devices.yaml", folder)
+        self._enrol()
+        from pico.edge.network.remotes import Remote, Remotes, keep
+
+        keep(self.checkout, Remotes({"lab": Remote(f"http://127.0.0.1:{self.port}")}, f"lab/{BENCH}"))
+        os.environ["PICO_TOKEN"] = TOKEN
+
+    def _enrol(self) -> None:
+        import json
+        from dataclasses import asdict
+
+        from sqlalchemy import update
+
+        from pico.attachment import bench_folder
+        from pico.edge.network.enrolment import Enrolment
+        from pico.server.access.principal import ROLES, right
+        from pico.server.access.secret import fingerprint
+        from pico.server.store.books import books_in
+        from pico.server.store.edges import Edges
+        from pico.server.store.tables import tokens
+
+        books, key = books_in(self.books), secrets.token_hex(32)
+        books.people.settled("anna", [right(role) for role in ROLES], by="benchmark")
+        books.people.issued("anna", 86400.0, by="benchmark")
+        with books.database.writing() as connection:
+            connection.execute(update(tokens).values(hash=fingerprint(TOKEN)))
+        code, _ = Edges(books.database).invited(BENCH, "benchmark")
+        Edges(books.database).enrolled(code, key)
+        books.close()
+        note = bench_folder(self.beside) / "enrolment.json"
+        note.parent.mkdir(exist_ok=True)
+        note.write_text(json.dumps(asdict(Enrolment(f"http://127.0.0.1:{self.far}", BENCH, key))))
+
+    @property
+    def note(self) -> Path | None:
+        return self.folder / "table.pickle" if self.emulated else None
+
+    def work(self) -> Mapping[str, Callable[[], None]]:
+        """What each process does."""
+        found: dict[str, Callable[[], None]] = {
+            "coordinator": lambda: coordinator(self.books, self.port),
+            "link": lambda: link(self.far, self.port),
+            "edge": lambda: edge(self.beside, self.note),
+        }
+        if (note := self.note) is not None:
+            return {"table": lambda: table(self.beside, note), **found}
+        return found
+
+    def start(self) -> None:
+        """Start, or let go on, whatever does not."""
+        for name in list(self.frozen):
+            os.kill(self.running[name], signal.SIGCONT)
+            self.frozen.discard(name)
+        for name, work in self.work().items():
+            if name not in self.running:
+                self.running[name] = forked(work)
+                if name == "table":
+                    until((self.folder / "table.pickle").exists, 120)
+
+    def ready(self) -> bool:
+        """Wait until the coordinator answers, and the edge has come to it; return whether that is so."""
+        return until(lambda: answers(self.port), 120) and until(self.met, 120)
+
+    def met(self) -> bool:
+        """Return whether the edge has come to the coordinator."""
+        import sqlite3
+
+        books = sqlite3.connect(f"file:{self.books / 'coordinator.sqlite'}?mode=ro", uri=True, timeout=10)
+        try:
+            return any(met for (met,) in books.execute("SELECT met FROM benches"))
+        finally:
+            books.close()
+
+    def kill(self, name: str) -> None:
+        """Kill a process."""
+        os.kill(self.running[name], signal.SIGKILL)
+        os.waitpid(self.running.pop(name), 0)
+        self.frozen.discard(name)
+
+    def freeze(self, name: str) -> None:
+        """Freeze a process."""
+        os.kill(self.running[name], signal.SIGSTOP)
+        self.frozen.add(name)
+
+    def close(self) -> None:
+        """End all processes."""
+        for name in list(self.running):
+            self.kill(name)
+
+
+class Expiries:
+    """Until when each lease was said to hold, at the latest, by the coordinator's books."""
+
+    def __init__(self, books: Path) -> None:
+        self._path, self._over = books / "coordinator.sqlite", threading.Event()
+        self.known: dict[int, float] = {}
+        self._thread = threading.Thread(target=self._watch, daemon=True)
+        self._thread.start()
+
+    def _watch(self) -> None:
+        import sqlite3
+
+        books = sqlite3.connect(f"file:{self._path}?mode=ro", uri=True, timeout=10)
+        while not self._over.wait(0.02):
+            with suppress(sqlite3.Error):
+                for token, expires in books.execute("SELECT granted, expires FROM benches WHERE granted IS NOT NULL"):
+                    self.known[token] = max(expires, self.known.get(token, 0.0))
+        books.close()
+
+    def close(self) -> None:
+        """Watch no more."""
+        self._over.set()
+        self._thread.join()
+
+
+def answers(port: int) -> bool:
+    """Return whether somebody listens at a port."""
+    with suppress(OSError), socket.create_connection(("127.0.0.1", port), timeout=1):
+        return True
+    return False
+
+
+def until(true: Callable[[], bool], seconds: float) -> bool:
+    """Wait until something is so; return whether it became so in time."""
+    end = time.monotonic() + seconds
+    while not true():
+        if time.monotonic() > end:
+            return False
+        time.sleep(0.02)
+    return True
