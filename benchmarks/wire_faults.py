@@ -213,8 +213,9 @@ class Trial:
                 self.person()
                 if self.reached(goal):
                     break
+                before = self.lateness
                 yield from self.command(self.going_on(goal), hurt=False)
-                fair += self.lateness < BUSY
+                fair += max(before, self.lateness) < BUSY
                 if fair >= COMMANDS:
                     yield f"{goal.target.name} was not reached by {COMMANDS} commands: {self.why}"
                     break
@@ -352,10 +353,13 @@ class Trial:
 
     def reached(self, goal: PlanGoal) -> bool:
         """Return whether nothing is left to do."""
-        with suppress(PicoError):
+        self.late.take()
+        try:
             plan = self.plan(goal)
             self.why = ", ".join(f"{c.component}.{c.tunable}: {c.text}" for c in plan.changes) or self.why
             return not plan.operations and not plan.errored
+        except PicoError as exc:
+            self.why, self.lateness = f"not seen: {exc}", max(self.lateness, self.late.take())
         return False
 
     def parked(self) -> bool:

@@ -90,13 +90,16 @@ class _Worker(Generic[H]):
             self._beat()
 
     def _beat(self) -> None:
-        """Let go of a link that is not alive any more."""
+        """Let go of a link that is not alive any more, nor a moment later: what it said may not be read yet, where
+        this machine is busy."""
         link = self._link
-        if self._alive and link is not None:
+        for last in (False, True):
             try:
-                self._alive(link)
+                if self._alive and link is not None:
+                    self._alive(link)
+                return
             except Exception as exc:
-                self._drop(exc)
+                self._drop(exc) if last else time.sleep(BEAT / 2)
 
     def _work(self) -> None:
         while call := self._next():

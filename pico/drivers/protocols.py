@@ -95,6 +95,11 @@ class Arm(Instrument, Protocol):
         """
         ...
 
+    async def carry(self, mass: float, center: tuple[float, float, float]) -> None:
+        """Reckon with `mass` [kg] in the hand beside its usual load, 0 for none, its centre [mm] from the flange; at
+        rest. Raises PicoError where it can't."""
+        ...
+
     async def halt(self) -> None:
         """Come to rest on the path, decelerated; `follow` then raises PicoError."""
         ...

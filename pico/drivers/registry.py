@@ -75,7 +75,7 @@ class Buses:
 
 
 def _imported(name: str, found: Driver) -> None:
-    """Import what a driver needs; raises PicoError where that lacks something itself, such as a library of the system."""
+    """Import what a driver needs; raises PicoError where that lacks something itself, as a library of the system."""
     module, extra = found.needs or ("", "")
     try:
         found.load() if found.load else import_module(module)

@@ -12,7 +12,8 @@ from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import Arm, Gripper
 from pico.model.operation import Operation
 from pico.model.setup import Setup
-from pico.motion.types import MovePath, Segment, Stage
+from pico.motion.reach import grasp_height
+from pico.motion.types import MovePath, Segment, SegmentName, Stage
 from pico.twin.arms import TwinArm
 
 if TYPE_CHECKING:
@@ -59,6 +60,8 @@ class Way:
 
     async def walk(self) -> None:
         """Go it to its end; raises Failed, naming component, operation and leg."""
+        if self.carries:
+            await self._load("lift")
         for segment in self._path.segments:
             self.stage = Stage(segment.name)
             await self._asked(self.stage)
@@ -70,9 +73,11 @@ class Way:
     async def _leg(self, segment: Segment) -> None:
         if segment.name == "grip":
             await self._grip()
+            await self._load(segment.name)
         elif segment.name == "release":
             await self._open(segment.opening)
             self.carries = False
+            await self._load(segment.name)
         else:
             if segment.name in ("approach", "descend"):
                 await self._open(segment.opening)
@@ -92,6 +97,15 @@ class Way:
         goes = (np.diff(times) > 0) | (np.abs(np.diff(joints, axis=0)).max(axis=1) > NOWHERE)
         kept = np.concatenate(([True], goes))
         return times[kept] * self._slow, self._built.told(joints[kept])
+
+    async def _load(self, leg: SegmentName) -> None:
+        """Let the arm reckon with what its hand holds now, which hangs from its tool."""
+        robot, geometry = self._setup.lab.robots[self._path.robot], self._setup.type_of(self._part).geometry
+        below = robot.gripper.tool + grasp_height(robot, geometry) - geometry.height / 2
+        try:
+            await self._arm.carry(geometry.mass if self.carries else 0.0, (0.0, 0.0, below))
+        except PicoError as exc:
+            raise failed(self._operation, exc, leg) from exc
 
     async def _open(self, width: float) -> None:
         if self._gripper is not None:

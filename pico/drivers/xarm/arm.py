@@ -86,6 +86,11 @@ class XArm:
             raise PicoError(error("device-stopped", text, address=self.name))
         return await self.state()
 
+    async def carry(self, mass: float, center: tuple[float, float, float]) -> None:
+        """Reckon with `mass` [kg] in the hand beside its load, its centre [mm] from the flange; a box that is told of
+        another load is to be started again. Raises PicoError where it can't."""
+        await self._line.move("reckon with what it carries", lambda link: self._loaded(link, mass, center))
+
     async def halt(self) -> None:
         """Come to rest on the path, decelerated; `follow` then raises PicoError."""
         if self._stream:
@@ -195,12 +200,7 @@ class XArm:
         self._ask(link, "start", lambda: link.arm.set_state(0))
 
     def _begun(self, link: Link, path: Path, doing: str) -> Stream:
-        link.require_heard()
-        if link is not self._ready_link:
-            why = self._lost_since(link)
-            text = f"{self.name} is not ready to move" + (f": it was lost, for {why}" if why else "")
-            hint = "get it ready first: its settings may be lost"
-            raise PicoError(error("arm-refused", text, hint=hint, address=self.name))
+        self._require_ready(link)
         if self._stream and self._stream.link is link and not self._stream.done.done():
             raise PicoError(error("arm-moves", f"{self.name} is moving already", address=self.name))
         if fault := link.fault():
@@ -218,6 +218,23 @@ class XArm:
         self._stream = Stream(self.name, link, path, doing=doing, pace=to.pace, set_points=to.set_points)
         self._stream.start()
         return self._stream
+
+    def _require_ready(self, link: Link) -> None:
+        """Raise PicoError where it was not got ready over this link."""
+        link.require_heard()
+        if link is not self._ready_link:
+            why = self._lost_since(link)
+            text = f"{self.name} is not ready to move" + (f": it was lost, for {why}" if why else "")
+            hint = "get it ready first: its settings may be lost"
+            raise PicoError(error("arm-refused", text, hint=hint, address=self.name))
+
+    def _loaded(self, link: Link, mass: float, center: tuple[float, float, float]) -> None:
+        self._require_ready(link)
+        own, whole = self.settings.load, self.settings.load + mass
+        at = [(own * a + mass * b) / whole if whole else 0.0
+              for a, b in zip(self.settings.load_center, center, strict=True)]  # fmt: skip
+        self._ask(link, "take the load in its hand", lambda: link.arm.set_tcp_load(whole, at), 9)
+        self._start(link)
 
     def _still(self, link: Link) -> None:
         if self._stream and not self._stream.done.done():

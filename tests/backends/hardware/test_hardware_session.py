@@ -53,6 +53,8 @@ class Bench:
         """By the number of a leg, what the arm says there."""
         self.legs, self.stopped, self.halted = 0, False, False
         self.misses, self.lost = False, ""
+        self.loads = list[tuple[int, float]]()
+        """What the arm was told that its hand carries [kg], after how many legs."""
         self.under_way = asyncio.Event()
         self.slow = False
 
@@ -75,6 +77,9 @@ class Bench:
 
     async def state(self) -> ArmState:
         return ArmState(joints=self.joints, age=0.0, moving=False, enabled=True, lost=self.lost)
+
+    async def carry(self, mass: float, center: tuple[float, float, float]) -> None:
+        self.loads.append((self.legs, mass))
 
     async def halt(self) -> None:
         self.said.append("halt")
@@ -230,6 +235,7 @@ def test_a_part_is_picked_carried_and_put_down_and_seen_where_it_should_be(setup
     grip = next(i for i, said in enumerate(bench.said) if said == "fingers 30")
     assert words[grip - 1] == "follow" and words[grip + 1 : grip + 4] == ["follow"] * 3
     assert bench.said.count("follow op3: move lx_125") == bench.legs == 6
+    assert bench.loads == [(2, setup.type_of("lx_125").geometry.mass), (5, 0.0)], "from the grip to the release"
 
 
 def test_an_arm_that_was_lost_moves_nothing_before_it_is_got_ready_again(setup: Setup) -> None:

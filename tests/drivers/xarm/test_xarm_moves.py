@@ -41,6 +41,19 @@ def test_what_it_is_told_is_what_the_box_has(rig: Rig) -> None:
     assert has.boundary == (900, -900, 900, -900, 1300, -100)
 
 
+def test_what_its_hand_holds_hangs_beside_its_load_and_it_goes_on_moving(rig: Rig) -> None:
+    """Another load is a system reset: mode and state are set again, or set-points would be refused."""
+    rig.do(rig.arm.carry(0.4, (0.0, 0.0, 210.0)))
+    assert np.allclose(rig.emulator.box.settings.load, (1.2, 0, 0, (0.8 * 60 + 0.4 * 210) / 1.2))
+    assert (rig.emulator.box.mode, rig.emulator.box.state) == (1, 2)
+    refused = rig.emulator.box.invalid[:]
+    assert rig.do(rig.arm.follow(*rig.turn(1, 0.05))).enabled
+    assert rig.emulator.box.invalid == refused
+    rig.do(rig.arm.carry(0.0, (0.0, 0.0, 0.0)))
+    assert np.allclose(rig.emulator.box.settings.load, (0.8, 0, 0, 60))
+    rig.do(rig.arm.follow(*rig.turn(1, -0.05)))
+
+
 @pytest.mark.parametrize(
     ("register", "what"),
     [(36, "load"), (35, "tool offset"), (37, "collision sensitivity"), (77, "self-collision"), (51, "gravity"),
