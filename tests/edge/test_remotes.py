@@ -96,7 +96,7 @@ def test_who_is_not_let_in_and_who_finds_nobody_is_told_what_to_do(
         assert f"`pico login {url}`" in str(caught.value.diagnostics[0].hint)
         monkeypatch.setenv("PICO_TOKEN", TOKEN)
         point(lab, url, "shel/bench7")
-        with pytest.raises(PicoError, match="has no bench shel/bench7"):
+        with pytest.raises(PicoError, match="there is no bench shel/bench7 here"):
             Bench.open(lab)
         point(lab, url)
         with pytest.raises(PicoError, match="is a sim bench, and this is for a hardware one"):

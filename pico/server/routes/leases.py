@@ -57,7 +57,12 @@ async def benches(request: Request) -> list[dict[str, Any]]:
     me: Principal = request.state.principal
     held = books(request.app)
     names = [name for name in held.leases.enrolled() if me.sees(name.partition("/")[0])]
-    return [{"bench": name, "lease": _shown(*held.leases.shown(name))} for name in names]
+    relay = getattr(request.app.state, "dispatcher", None)
+    return [
+        {"bench": name, "lease": _shown(*held.leases.shown(name)),
+         "connected": None if relay is None else relay.hub.connected(name) is not None}
+        for name in names
+    ]  # fmt: skip
 
 
 @router.get(AT, **needs("viewer"))

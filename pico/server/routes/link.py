@@ -16,7 +16,7 @@ from pico.edge.network import messages
 from pico.server.guard.gatekeeper import BODY, LONG_BODY
 from pico.server.relay.dispatch import Call, Dispatcher
 from pico.server.relay.hub import Gone
-from pico.server.routes.admitting import FRESH, Admitted, admit, routed
+from pico.server.routes.admitting import FRESH, Admitted, admit, books, refusal, routed
 
 router = routed()
 MANY = 64
@@ -32,6 +32,11 @@ async def link(socket: WebSocket, lab: str, bench: str) -> None:
     """Hand calls on to the edge of a bench, and its answers back."""
     admitted = await admit(socket, "any", lab)
     if admitted is None:
+        return
+    try:
+        books(socket.app).leases.shown(f"{lab}/{bench}")
+    except PicoError as exc:  # there is no such bench
+        await socket.send_denial_response(refusal(exc))
         return
     await socket.accept()
     client = _Client(socket, admitted, f"{lab}/{bench}")
