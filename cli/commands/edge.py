@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from pico.edge.network.enrolment import Enrolment
     from pico.model.wiring import DeviceEntry
 
+Url = Annotated[str, typer.Argument(metavar="URL", help="The coordinator's address.")]
 Code = Annotated[str, typer.Option("--code", metavar="CODE", help="A code that an admin of the coordinator made.")]
 Pin = Annotated[str, typer.Option("--pin", metavar="SHA256", help="The coordinator's certificate, if it is its own.")]
 
@@ -49,7 +50,7 @@ def main(context: typer.Context, fidelity: Fidelity = None) -> None:
 
 
 @app.command()
-def enrol(context: typer.Context, url: str, code: Code, pin: Pin = "") -> None:
+def enrol(context: typer.Context, url: Url, code: Code, pin: Pin = "") -> None:
     """Enrol the bench with a coordinator, which alone grants it from then on.
 
     An admin of the coordinator makes the code: `pico token enrol LAB/BENCH`. `pico edge` then connects to it.
