@@ -197,8 +197,9 @@ class Uplink:
         from websockets.exceptions import ConnectionClosed
 
         try:
-            async for answer in self._answers(said, taken):
-                await self._send({"id": call, **answer})
+            with on_behalf_of(str(said.get("by", {}).get("who", ""))):
+                async for answer in self._answers(said, taken):
+                    await self._send({"id": call, **answer})
         except ConnectionClosed:  # it is asked again, and what was a command is answered then
             pass
         finally:
@@ -211,16 +212,15 @@ class Uplink:
         except PicoError as exc:
             yield wire.failure(exc)
             return
-        with on_behalf_of(str(said.get("by", {}).get("who", ""))):
-            if said.get("command"):
-                yield await self._commanded(Command(**said["command"]), name, arguments, taken)
-                return
-            if name in messages.UNDER_LEASE:
-                text = f"{name} is done under a lease of the coordinator only"
-                yield wire.failure(PicoError(error("lease", text), ExitCode.LOCKED))
-                return
-            async for answer in self._answering.answers(name, arguments, taken):
-                yield answer
+        if said.get("command"):
+            yield await self._commanded(Command(**said["command"]), name, arguments, taken)
+            return
+        if name in messages.UNDER_LEASE:
+            text = f"{name} is done under a lease of the coordinator only"
+            yield wire.failure(PicoError(error("lease", text), ExitCode.LOCKED))
+            return
+        async for answer in self._answering.answers(name, arguments, taken):
+            yield answer
 
     async def _commanded(self, command: Command, name: str, arguments: list[Any], taken: Taken) -> Document:
         """Do what a command says, once, and return what it is answered: what it was, where it is known."""
