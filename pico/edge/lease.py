@@ -269,7 +269,8 @@ def on_behalf_of(who: str) -> Iterator[None]:
     try:
         yield
     finally:
-        _FOR.reset(before)
+        with suppress(ValueError):  # what answers was left, and is closed where nobody is there any more
+            _FOR.reset(before)
 
 
 def user() -> str:
