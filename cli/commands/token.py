@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import group
 from ..session import Session
@@ -137,6 +137,23 @@ def enrol(
     session = Session.of(context)
     made = _ask(session, remote, "POST", "/enrolments", {"bench": bench})
     session.show(view, enrolment=made, url=_meant(session, remote).url)
+
+
+@app.command()
+def audit(
+    context: typer.Context,
+    since: Annotated[int, typer.Option("--since", metavar="N", min=0, help="What came after entry N.")] = 0,
+    remote: At = None,
+) -> int:
+    """Show who did what at a coordinator, for admins; exit code 1 where entries were changed or are missing.
+
+    Examples:
+      pico token audit --since 120
+    """
+    session = Session.of(context)
+    found = _ask(session, remote, "GET", f"/audit?since={since}")
+    session.show(view, audit=found)
+    return ExitCode.DONE if found["broken"] is None else ExitCode.ERROR
 
 
 def _word(name: str) -> str:

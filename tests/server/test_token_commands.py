@@ -63,6 +63,10 @@ def test_the_first_admin_invites_somebody_whose_token_is_then_ended(serving: Any
     assert pico("token", "list", "--remote", url, **by_itself).returncode == 7
     assert pico("token", "role", "anna").stdout == "anna  may nothing any more\n"
     assert pico("token", "list", at="anna").returncode == 7
+    audit = pico("token", "audit")
+    assert audit.returncode == 0 and audit.stdout.endswith("Every entry is as it was written.\n")
+    assert f"revoke anna/{made['id']}" in audit.stdout and "principal anna" in audit.stdout
+    assert pico("token", "audit", at="anna").returncode == 7
     bad = pico("token", "role", "anna", "viewr@shel")
     assert bad.returncode == 1 and "did you mean `viewer`?" in bad.stderr
     assert "pico_code_" not in (tmp_path / "books" / "coordinator.sqlite").read_bytes().decode("latin-1")
