@@ -18,8 +18,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
 from pico.edge.link import wire
+from pico.edge.network import messages
 from pico.edge.network.roles import ROLES
 from pico.history.examples.example import make_example
+from pico.server.store.edges import Edges
 
 LINK = f"/api/benches/{BENCH}/link"
 MESSAGES = 10_000
@@ -79,6 +81,47 @@ def test_a_socket_ends_with_its_token_and_gives_back_what_it_held(bench: tuple[S
             socket.recv(timeout=30)
     while coordinator.books.leases.shown(BENCH)[0].grant is not None:
         time.sleep(0.01)
+
+
+ASKED = {"asked": 1, "moving": None, "busy": False, "taken": 0}
+UNASKED: tuple[Any, ...] = ({"lease": 1}, {"id": [], "x": 1})
+"""Answers to what nobody asked, which nobody hears."""
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"poll": {**ASKED, "fenced": 1 << 80}},
+        {"poll": {**ASKED, "fenced": "x"}},
+        {"poll": {}},
+        {"poll": 3},
+        [],
+        *UNASKED,
+    ],
+)
+def test_an_edge_that_talks_nonsense_ends_its_own_line_alone(coordinator: Served, said: Any) -> None:
+    code, _ = Edges(coordinator.books.database).invited(BENCH, "test")
+    key, nonce = bytes(range(32)), "0" * 32
+    assert coordinator.ask("POST", "/api/edge/enrol", None, {"code": code, "key": key.hex()})[0] == 200
+    assert coordinator.ask("POST", "/api/edge/enrol", None, {"code": code, "key": key.hex()})[0] == 401
+    shown = f"{messages.SCHEME} {BENCH} {nonce} {messages.proof(key, 'dials', BENCH, nonce, '')}"
+    with coordinator.watch("/api/edge/link", additional_headers={"authorization": shown}) as socket:
+        greeting = json.loads(socket.recv(timeout=30))
+        assert greeting["proof"] == messages.proof(key, "coordinator", BENCH, nonce, greeting["nonce"])
+        proof = messages.proof(key, "edge", BENCH, nonce, greeting["nonce"])
+        socket.send(json.dumps({"proof": proof, "hello": {"fenced": 0, "records": []}}))
+        with suppress(ConnectionClosed):
+            socket.send(json.dumps(said))
+            if said not in UNASKED:
+                socket.recv(timeout=30)
+    with coordinator.watch("/api/edge/link", additional_headers={"authorization": shown}) as socket:  # replayed, no key
+        socket.recv(timeout=30)
+        socket.send(json.dumps({"proof": proof, "hello": {"fenced": 9, "records": []}}))
+        with pytest.raises(ConnectionClosed) as over:
+            socket.recv(timeout=30)
+        assert over.value.rcvd is not None and over.value.rcvd.code == 4401
+    assert coordinator.books.leases.shown(BENCH)[0].token == 0
+    assert coordinator.ask("GET", "/api/whoami", coordinator.person("anna"))[0] == 200
 
 
 def nonsense(draw: random.Random) -> str | bytes:

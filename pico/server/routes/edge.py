@@ -88,7 +88,11 @@ async def link(socket: WebSocket) -> None:
             await socket.close(STRANGER)
         return
     dispatcher: Dispatcher = socket.app.state.dispatcher
-    await books(socket.app).do(dispatcher.rows.reconciled, line.bench, line.fenced, records)
+    try:
+        await books(socket.app).do(dispatcher.rows.reconciled, line.bench, line.fenced, records)
+    except OverflowError:
+        await socket.close(BROKEN)
+        return
     polled = Polled(books(socket.app), dispatcher.rows, line)
     asking, idle = asyncio.Queue[dict[str, Any]](), asyncio.Event()
     polling = asyncio.create_task(_polled(polled, asking, idle, line, dispatcher))
@@ -104,7 +108,7 @@ async def link(socket: WebSocket) -> None:
                 line.heard(said)
     except (WebSocketDisconnect, RuntimeError):
         pass
-    except (KeyError, TypeError, ValueError, PicoError):
+    except (KeyError, TypeError, ValueError, AttributeError, PicoError):
         with suppress(RuntimeError):
             await socket.close(BROKEN)
     finally:
@@ -160,7 +164,7 @@ async def _polled(
                 await dispatcher.resumed(line.bench)
             if asking.empty():
                 idle.set()
-    except (Gone, KeyError, TypeError, ValueError):
+    except (Gone, KeyError, TypeError, ValueError, OverflowError):
         pass
     finally:
         line.end()
