@@ -123,6 +123,20 @@ def test_who_has_the_bench_is_shown_and_only_they_give_it_back(
     assert coordinator.ask("PUT", at, bob, {"session": "b", "token": stolen - 1})[0] == 409
 
 
+def test_who_logs_in_after_somebody_else_in_their_checkout_does_not_have_what_they_have(
+    coordinator: Served, lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    logged_in(coordinator, pico, monkeypatch, *RIGHTS)
+    pico("bench", "use", BENCH)
+    holding(lab).take()
+    monkeypatch.setenv("PICO_TOKEN", coordinator.person("bob", *RIGHTS))
+    assert "ann has shel/bench1" in pico("lease", "show").out
+    assert not pico("--json", "lease", "show").data["mine"]
+    assert pico("lease", "release").code == ExitCode.LOCKED
+    monkeypatch.delenv("PICO_TOKEN")
+    assert pico("--json", "lease", "show").data["mine"] and "is given back" in pico("lease", "release").out
+
+
 @pytest.mark.slow
 def test_a_lease_is_had_until_ctrl_c(
     coordinator: Served, lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch

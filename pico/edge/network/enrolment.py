@@ -119,6 +119,10 @@ def _posted(where: SplitResult, pin: str, document: dict[str, str]) -> dict[str,
         answer = line.getresponse()
         status, data = answer.status, answer.read(1 << 16)
         line.close()
+    except ssl.SSLCertVerificationError as exc:
+        text = f"{where.geturl()} is not known for what it says it is: {exc.verify_message}"
+        hint = "if it signed its certificate itself: `--pin` with the SHA-256 of that, by `openssl x509 -noout"
+        raise PicoError(error("certificate", text, hint=f"{hint} -fingerprint -sha256 -in lab.pem`")) from exc
     except (OSError, http.client.HTTPException) as exc:
         raise PicoError(error("link", f"{where.geturl()} does not answer: {exc}", hint="is it served there?")) from exc
     if status != 200:

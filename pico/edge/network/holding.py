@@ -33,7 +33,8 @@ class Holding:
         """Return who has the bench and who waits; `mine`: whether this checkout has it."""
         found: dict[str, Any] = self._ask("GET", self._path)
         holder = found.get("holder") or {}
-        return {**found, "mine": str(holder.get("session", "")).endswith(f"/{self._session}")}
+        mine = bool(holder.get("you")) and str(holder.get("session", "")).endswith(f"/{self._session}")
+        return {**found, "mine": mine}
 
     def take(self, wait: float = 0.0) -> int:
         """Take the bench, within `wait` seconds, and return its token; exit code LOCKED where somebody else has it."""
@@ -78,8 +79,7 @@ class Holding:
             raise PicoError(error("locked", text, hint=hint), ExitCode.LOCKED)
         token = holder["token"] if holder else 0
         query = urlencode({"session": self._session, "token": token})
-        self._ask("DELETE", f"{self._path}?{query}")
-        return holder is not None
+        return bool(self._ask("DELETE", f"{self._path}?{query}")["released"])
 
     def _held_by_others(self) -> bool:
         found = self.show()

@@ -67,8 +67,11 @@ async def benches(request: Request) -> list[dict[str, Any]]:
 
 @router.get(AT, **needs("viewer"))
 async def show(request: Request, lab: str, bench: str) -> dict[str, Any]:
-    """Say who has a bench, since when, and who is next."""
-    return _shown(*books(request.app).leases.shown(f"{lab}/{bench}"))
+    """Say who has a bench, whether that is who asks (`you`), since when, and who is next."""
+    found = _shown(*books(request.app).leases.shown(f"{lab}/{bench}"))
+    if found["holder"]:
+        found["holder"]["you"] = found["holder"]["who"] == request.state.principal.name
+    return found
 
 
 @router.post(AT, **needs("operator"))
