@@ -86,6 +86,7 @@ def test_a_command_of_one_file_is_completed(blink: Path, shel: Path) -> None:
     assert candidates(["bl"]) == ["blame", "blink-twice"]
     assert candidates(["blink-twice", "--"]) == [
         "--backend",
+        "--bench",
         "--debug",
         "--emulate",
         "--help",
