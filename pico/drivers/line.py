@@ -50,8 +50,12 @@ class Line(Generic[H]):
 
     async def stop(self, run: Callable[[H], object], *, within: float = USUAL) -> None:
         """Ask for a stop before all that waits; what was asked to move and has not begun never does."""
-        self._stops += 1
+        self.stopped()
         await self._bus.ask(self.name, "stop", run, before=self._identity, within=within, first=True)
+
+    def stopped(self) -> None:
+        """Let nothing begin that was asked for before now, and nothing go on step by step."""
+        self._stops += 1
 
     def require_running(self, stops: int, what: str) -> None:
         """Raise PicoError where it was stopped since `stops` was read."""

@@ -100,6 +100,7 @@ class XArm:
     async def stop(self) -> None:
         """Stop all motion now, decelerated, without waiting for another call."""
         stream, link = self._stream, self._link
+        self._line.stopped()
         if stream:
             stream.end("stopped")
         if link is not None:
@@ -156,6 +157,7 @@ class XArm:
         self._line.require_running(stops, "it was to get ready")
         self._ask(link, "enable its motors", lambda: link.arm.motion_enable(True))
         self._start(link)
+        self._line.require_running(stops, "it was to get ready")  # the stop is told once more after this
         self._ready_link = link
         if _reported(link, lambda: not self._state(link).enabled):
             self._ready_link = None
