@@ -51,10 +51,11 @@ async def attached(folder: Path, since: int) -> tuple[str, bool, list[str]]:
     """Attach to the last run; return its id, whether it still went on, and what is wrong."""
     from pico.edge.link import place
     from pico.edge.link.client import RemoteEdge
+    from pico.edge.link.line import SocketLine
 
     path = place.find(folder)
     assert path is not None
-    edge = RemoteEdge(path)
+    edge = RemoteEdge(SocketLine(path))
     going = await edge.holder() is not None
     assert edge.memory is not None
     run = edge.memory.runs()[-1].run

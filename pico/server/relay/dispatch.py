@@ -90,6 +90,8 @@ class Dispatcher:
         if name not in wire.CALLS:
             raise PicoError(error("link", f"this is no call that an edge knows: {name[:40]}"))
         who.require(role_of(name, arguments) or "any", bench.partition("/")[0])
+        if len(arguments) != (wanted := len(wire.CALLS[name][0])):
+            raise PicoError(error("link", f"{name} takes {wanted} arguments, not {len(arguments)}"))
         call = Call(who, session, bench, name, _signed(name, arguments, who.name), self.hub.number())
         try:
             _key(call, 0), _patience(call), call.asker

@@ -16,7 +16,7 @@ from pico.edge.network.roles import ROLES
 from pico.server.access.principal import Principal
 from pico.server.guard.saying import STATUS
 from pico.server.relay.dispatch import Call, Dispatcher
-from pico.server.routes.admitting import needs, routed
+from pico.server.routes.admitting import books, needs, routed
 from pico.server.routes.people import Body
 
 router = routed()
@@ -36,6 +36,7 @@ def _route(name: str) -> None:
     async def called(request: Request, lab: str, bench: str, asked: Asked) -> Response:
         me: Principal = request.state.principal
         dispatcher: Dispatcher = request.app.state.dispatcher
+        books(request.app).leases.shown(f"{lab}/{bench}")  # says where there is no such bench
         session = asked.session or f"rest-{secrets.token_hex(8)}"
         call = dispatcher.call(me, session, f"{lab}/{bench}", name, asked.arguments)
         if name in wire.STREAMS:
