@@ -57,7 +57,7 @@ def over(child: int, seconds: float) -> int | None:
     return None
 
 
-def places(network: Network) -> dict[str, object]:
+def places(network: Network) -> dict[str, tuple[str, object]]:
     """Return where the parts of the table are."""
     from pico.backends.emulated.world import FOLDER
     from pico.backends.sim.store import load_world
@@ -81,7 +81,12 @@ def records(network: Network) -> tuple[dict[str, str], list[Any]]:
     return found
 
 
-def wrong(network: Network, expiries: Expiries, before: dict[str, object]) -> dict[str, list[str]]:
+def _lost(presence: str, other: bool, begun: bool) -> bool:
+    """Whether a part is gone, or is not as it was though nothing began to move it."""
+    return presence not in ("seen", "held") or (other and not begun)
+
+
+def wrong(network: Network, expiries: Expiries, before: dict[str, tuple[str, object]]) -> dict[str, list[str]]:
     """Return what went against the rules, by rule: `before` is where the parts were at first."""
     holders, known = records(network)
     started = [r for r in known if r.kind == "started"]
@@ -95,7 +100,9 @@ def wrong(network: Network, expiries: Expiries, before: dict[str, object]) -> di
             late.append(f"{record.key} at {record.at}, lease {record.token} until {until_}")
     tokens = [r.token for r in started]
     return {
-        "lost": [n for n, (presence, pose) in now.items() if (presence, pose) != before[n] and n not in begun],  # type: ignore[misc]
+        "lost": [
+            n for n, (presence, pose) in now.items() if _lost(presence, (presence, pose) != before[n], n in begun)
+        ],
         "repeated": repeated(network.beside),
         "after the deadline": late,
         "out of order": [] if tokens == sorted(tokens) else [str(tokens)],

@@ -14,7 +14,7 @@ import os
 import secrets
 from collections.abc import AsyncIterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from typing import Any
 
@@ -71,7 +71,6 @@ class Held:
     session: str
     token: int
     call: str
-    lost: asyncio.Event = field(default_factory=asyncio.Event)
 
 
 class Dispatcher:
@@ -340,7 +339,6 @@ class Dispatcher:
                 turn = await self._books.turn(self._books.leases.renewed, held.bench, held.session, held.token)
                 if any(said.what == "lost" and said.session == held.session for said in turn.said):
                     self._held.discard(held)
-                    held.lost.set()
 
 
 async def _first(seconds: float, *events: asyncio.Event) -> None:
