@@ -27,6 +27,15 @@ def far(shel: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator
         yield served
 
 
+@pytest.fixture
+def slow(shel: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """As `far`, with an arm that takes its time."""
+    monkeypatch.setenv("PICO_TOKEN", TOKEN)
+    with relayed(Path(shutil.copytree(shel, tmp_path / "served" / "shel")), pause=0.1) as url:
+        point(shel, url)
+        yield
+
+
 @pytest.mark.slow
 def test_a_state_is_planned_here_applied_there_and_its_run_comes_into_the_commit(
     far: Path, shel: Path, pico: Pico
@@ -76,7 +85,7 @@ def test_without_anybody_who_serves_it_a_run_is_not_left_to_the_bench(shel: Path
 
 @pytest.mark.slow
 @pytest.mark.parametrize("now", [(), ("--now",)])
-def test_who_runs_is_stopped_from_another_checkout(far: Path, shel: Path, pico: Pico, now: tuple[str, ...]) -> None:
+def test_who_runs_is_stopped_from_another_checkout(slow: None, shel: Path, pico: Pico, now: tuple[str, ...]) -> None:
     words = [sys.executable, "-m", "pico_cli", "apply", "e1", "-y"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=dict(os.environ), cwd=shel) as process:
         assert process.stdout is not None
@@ -91,7 +100,7 @@ def test_who_runs_is_stopped_from_another_checkout(far: Path, shel: Path, pico: 
 
 
 @pytest.mark.slow
-def test_a_client_that_is_killed_ends_no_run(far: Path, shel: Path, pico: Pico) -> None:
+def test_a_client_that_is_killed_ends_no_run(slow: None, shel: Path, pico: Pico) -> None:
     words = [sys.executable, "-m", "pico_cli", "apply", "e1", "-y"]
     with subprocess.Popen(words, stdout=subprocess.PIPE, text=True, env=dict(os.environ), cwd=shel) as process:
         assert process.stdout is not None

@@ -9,9 +9,11 @@ import secrets
 import signal
 import sys
 import tempfile
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
+from typing import Any
 
 from pico.attachment import bench_folder
 from pico.disk import write_whole
@@ -63,9 +65,25 @@ async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
     books.close()
 
 
+def _slowed(pause: float) -> None:
+    """Let each phase of what the simulated arm does last `pause` [s] longer, so that somebody can come in between."""
+    from pico.backends.sim.session import WorldSession
+
+    tell = WorldSession._tell
+
+    def telling(self: WorldSession, *what: Any) -> None:
+        tell(self, *what)
+        time.sleep(pause)
+
+    WorldSession._tell = telling  # type: ignore[method-assign]
+
+
 @contextmanager
-def relayed(root: Path, fidelity: str = "kinematic") -> Iterator[str]:
-    """Serve the simulated bench of the lab in `root` as `shel/bench1` of a coordinator; yields its address."""
+def relayed(root: Path, fidelity: str = "kinematic", *, pause: float = 0.0) -> Iterator[str]:
+    """Serve the simulated bench of the lab in `root` as `shel/bench1` of a coordinator; yields its address.
+
+    `pause`: so much longer lasts each phase of what its arm does [s].
+    """
     reading, writing = os.pipe()
     books = tempfile.TemporaryDirectory()
     child = os.fork()
@@ -76,6 +94,8 @@ def relayed(root: Path, fidelity: str = "kinematic") -> Iterator[str]:
             os.setsid()
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)
+            if pause:
+                _slowed(pause)
             asyncio.run(_serve(root, fidelity, writing, Path(books.name)))
             code = 0
         except BaseException as exc:
