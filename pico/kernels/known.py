@@ -3,25 +3,20 @@ kind."""
 
 from __future__ import annotations
 
-from functools import cache
+from collections.abc import Mapping
 from importlib import import_module
 from typing import cast
 
+from pico import registered
 from pico.kernels.kernel import Kernel
 
 FOLDER = "pico.kernels.standard"
 GROUP = "pico.kernels"
 
 
-@cache
-def modules() -> dict[str, str]:
-    """Return the modules of all kernels by name; those of plug-ins can't replace PICO's own."""
-    from importlib.metadata import entry_points
-    from pkgutil import iter_modules
-
-    own = {found.name: f"{FOLDER}.{found.name}" for found in iter_modules(import_module(FOLDER).__path__)}
-    more = {entry.name: entry.value for entry in entry_points(group=GROUP)}
-    return {**more, **own}
+def modules() -> Mapping[str, str]:
+    """Return the modules of all kernels by name; imports none."""
+    return registered.modules(FOLDER, GROUP)
 
 
 def kernel(name: str) -> Kernel:

@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import cache
 from importlib import import_module
-from pkgutil import iter_modules
 from typing import Protocol, cast
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.optimize.problem import Algorithm, Declaration, Problem
+from pico.registered import modules
 
 FOLDER = "pico.optimize.algorithms"
 GROUP = "pico.algorithms"
@@ -23,18 +22,9 @@ class AlgorithmFile(Protocol):
     make: Callable[[Problem, Mapping[str, float], int], Algorithm]
 
 
-@cache
 def known() -> tuple[str, ...]:
     """Return the names of all algorithms, PICO's own first; imports none of PICO's own."""
-    own = sorted(found.name for found in iter_modules(import_module(FOLDER).__path__))
-    return (*own, *sorted(_plugged_in().keys() - set(own)))
-
-
-@cache
-def _plugged_in() -> Mapping[str, str]:
-    from importlib.metadata import entry_points
-
-    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
+    return tuple(modules(FOLDER, GROUP))
 
 
 def algorithm_file(name: str) -> AlgorithmFile:
@@ -43,7 +33,7 @@ def algorithm_file(name: str) -> AlgorithmFile:
     if name not in known():
         hint = did_you_mean(name, known()) or f"known: {', '.join(known())}"
         raise PicoError(error("algorithm", f"there is no algorithm `{name}`", hint=hint))
-    return cast(AlgorithmFile, import_module(_plugged_in().get(name) or f"{FOLDER}.{name}"))
+    return cast(AlgorithmFile, import_module(modules(FOLDER, GROUP)[name]))
 
 
 def refusal(name: str, problem: Problem) -> PicoError | None:

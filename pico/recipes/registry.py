@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from importlib import import_module
-from pkgutil import iter_modules
 from typing import Any, Protocol, cast
 
+from pico import registered
 from pico.manifest.text.tree import Node
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader
@@ -66,29 +65,16 @@ class StepFile(Protocol):
         ...
 
 
-@cache
 def own() -> tuple[str, ...]:
     """Return the names of the steps that PICO brings but those of the language itself; imports none."""
-    return tuple(sorted(found.name.rstrip("_") for found in iter_modules(import_module(FOLDER).__path__)))
+    return registered.own(FOLDER, GROUP)
 
 
-@cache
 def known() -> tuple[str, ...]:
     """Return the names of all steps but those of the language itself; imports none."""
-    return (*own(), *sorted(_plugged_in().keys() - set(own())))
+    return tuple(registered.modules(FOLDER, GROUP))
 
 
-@cache
-def _plugged_in() -> Mapping[str, str]:
-    from importlib.metadata import entry_points
-
-    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
-
-
-@cache
 def step_file(name: str) -> StepFile:
-    """Return the file of a step; raises ImportError for a name that there is not."""
-    if name in _plugged_in():
-        return cast(StepFile, import_module(_plugged_in()[name]))
-    found = {f.name.rstrip("_"): f.name for f in iter_modules(import_module(FOLDER).__path__)}
-    return cast(StepFile, import_module(f"{FOLDER}.{found[name]}"))
+    """Return the file of a step; raises KeyError for a name that there is not."""
+    return cast(StepFile, import_module(registered.modules(FOLDER, GROUP)[name]))

@@ -15,6 +15,7 @@ from pico.diagnostics import PicoError
 from pico.kernels import known
 from pico.kernels.frame import Frame
 from pico.kernels.pipeline import parsed, run
+from pico.registered import modules
 
 MEAN = """
 from pico.kernels.kernel import Declaration, Result
@@ -92,10 +93,10 @@ def mean(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     (about / "entry_points.txt").write_text("[pico.kernels]\nmean = mean_kernel\ncentroid = mean_kernel\n")
     (tmp_path / "mean_kernel.py").write_text(MEAN)
     monkeypatch.syspath_prepend(tmp_path)
-    known.modules.cache_clear()
+    modules.cache_clear()
     yield
     monkeypatch.undo()
-    known.modules.cache_clear()
+    modules.cache_clear()
 
 
 @pytest.mark.usefixtures("mean")

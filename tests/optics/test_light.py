@@ -21,6 +21,7 @@ from pico.model.pose import Pose
 from pico.optics import elements
 from pico.optics.beam import Beam, forward, moments
 from pico.optics.light import Light, irradiance
+from pico.registered import modules
 from pico.resources import catalog_dir
 
 LASER = Pose(100, 400)  # its exit at x = 160
@@ -244,7 +245,7 @@ def test_a_new_element_is_one_new_file(tmp_path: Path, monkeypatch: pytest.Monke
         "    return Met(came, (replace(came, waves=tuple(turned)),))\n"
     )
     monkeypatch.setattr(elements, "__path__", [*elements.__path__, str(tmp_path)])
-    own.cache_clear()
+    modules.cache_clear()
     try:
         base = kind("half_wave_plate")
         rotator = replace(base, optics=replace(base.optics, element="rotator"))
@@ -253,7 +254,7 @@ def test_a_new_element_is_one_new_file(tmp_path: Path, monkeypatch: pytest.Monke
         assert "rotator" in own() and not unknown_elements("rotator")
     finally:
         monkeypatch.undo()
-        own.cache_clear()
+        modules.cache_clear()
     assert unknown_elements("rotator") and unknown_elements("polarizr") == ["did you mean `polarizer`?"]
 
 

@@ -3,10 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Iterator, Sequence
 from importlib import import_module
-from pkgutil import iter_modules
 from typing import Protocol, cast
 
 from pico.diagnostics import Diagnostic, PicoError
@@ -15,6 +13,7 @@ from pico.model.observation import Observation
 from pico.model.setup import Setup
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal import within_reach
+from pico.registered import modules
 
 FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"
@@ -29,23 +28,14 @@ class GoalFile(Protocol):
     make: Callable[[Asked], Ready]
 
 
-@cache
 def known() -> tuple[str, ...]:
     """Return the names of all ready-made goals, PICO's own first; imports none of them."""
-    own = sorted(found.name for found in iter_modules(import_module(FOLDER).__path__))
-    return (*own, *sorted(_plugged_in().keys() - set(own)))
-
-
-@cache
-def _plugged_in() -> Mapping[str, str]:
-    from importlib.metadata import entry_points
-
-    return {entry.name: entry.value for entry in entry_points(group=GROUP)}
+    return tuple(modules(FOLDER, GROUP))
 
 
 def goal_file(name: str) -> GoalFile:
     """Return the file of a ready-made goal that is known."""
-    return cast(GoalFile, import_module(_plugged_in().get(name) or f"{FOLDER}.{name}"))
+    return cast(GoalFile, import_module(modules(FOLDER, GROUP)[name]))
 
 
 def takes() -> dict[str, str]:

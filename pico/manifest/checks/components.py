@@ -6,8 +6,7 @@ import math
 from collections.abc import Iterator
 
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
-from pico.manifest.checks.elements import own
-from pico.manifest.checks.elements import plugged_in as more_elements
+from pico.manifest.checks import elements
 from pico.manifest.checks.kernels import check_kernels
 from pico.manifest.checks.needs import check_needs
 from pico.manifest.checks.parameters import check_parameters
@@ -50,9 +49,8 @@ def check_type(document: Document, kind: ComponentType) -> list[Diagnostic]:
 
 
 def _element(document: Document, name: str) -> Iterator[Diagnostic]:
-    if name not in own() and name not in more_elements():
-        elements = (*own(), *sorted(more_elements()))
-        hint = did_you_mean(name[:40], elements) or f"known: {', '.join(elements)}; plug-ins bring more"
+    if name not in (names := elements.known()):
+        hint = did_you_mean(name[:40], names) or f"known: {', '.join(names)}; plug-ins bring more"
         text = f"there is no optical element `{name[:40]}`"
         yield error("unknown-element", text, hint=hint, source=where(document, "optics", "element"))
 

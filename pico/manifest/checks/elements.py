@@ -3,29 +3,22 @@
 
 from __future__ import annotations
 
-from functools import cache
+from pico import registered
 
 FOLDER = "pico.optics.elements"
 GROUP = "pico.elements"
 
 
-@cache
 def own() -> tuple[str, ...]:
     """Return the names of PICO's own elements, read from the folder; imports none."""
-    from importlib import import_module
-    from pkgutil import iter_modules
-
-    return tuple(sorted(found.name for found in iter_modules(import_module(FOLDER).__path__)))
+    return registered.own(FOLDER, GROUP)
 
 
-@cache
-def plugged_in() -> dict[str, str]:
-    """Return the modules of the elements that plug-ins bring, by the element's name; PICO's own can't be replaced."""
-    from importlib.metadata import entry_points
-
-    return {entry.name: entry.value for entry in entry_points(group=GROUP) if entry.name not in own()}
+def known() -> tuple[str, ...]:
+    """Return the names of all elements, PICO's own first; imports none."""
+    return tuple(registered.modules(FOLDER, GROUP))
 
 
 def module_of(element: str) -> str:
     """Return the module that says what an element does to light."""
-    return f"{FOLDER}.{element}" if element in own() else plugged_in().get(element, f"{FOLDER}.{element}")
+    return registered.modules(FOLDER, GROUP).get(element, f"{FOLDER}.{element}")
