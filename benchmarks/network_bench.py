@@ -1,5 +1,6 @@
 """The processes of a lab on the network, each forked from this one: the emulated table with its controllers, edge,
-coordinator, the link between these two, and clients. Each may be killed, frozen and started anew."""
+coordinator, the link between these two, the line of the clients, and clients. Each may be killed, frozen and started
+anew."""
 
 from __future__ import annotations
 
@@ -18,6 +19,9 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from network_links import CLEAR, WEATHER, Cable, Weather, link
+from network_table import Entries, table
 
 ROOT = Path(__file__).resolve().parent.parent
 BENCH, TOKEN = "shel/bench1", "of-a-benchmark"
@@ -44,63 +48,15 @@ def free_port() -> int:
         return int(found.getsockname()[1])
 
 
-@dataclass
-class Clock:
-    """The clock of the emulated table, as another process reads it: both go by the machine's monotonic one."""
-
-    began: float
-    since: float
-    pace: float
-
-    def now(self) -> float:
-        return self.since + (time.monotonic() - self.began) * self.pace
-
-    def store(self) -> None:
-        """It is kept by the process that has it."""
-
-    def pull(self, device: str, pulled: bool) -> None:
-        raise NotImplementedError
-
-
-@dataclass
-class Entries:
-    """The devices with the addresses that lead to their emulators."""
-
-    entries: dict[str, Any]
-
-    def close(self) -> None:
-        """They are another process's."""
-
-
-def table(root: Path, note: Path) -> None:
-    """Have the emulated table in this process, kept in `root`, and write what leads there."""
-    from pico.backends.emulated.bench import brought_up
-    from pico.backends.instruments import emulated
-    from pico.edge import own_lab
-
-    lab = own_lab.proposed(root)
-    assert lab is not None
-    setup = own_lab.setup_of(lab)
-    devices = dict(setup.wiring.devices) if setup.wiring else {}
-    world, running = brought_up(setup, root, emulated(devices))
-    clock = Clock(time.monotonic(), world.now(), world.pace)
-    partial = note.with_suffix(".part")
-    partial.write_bytes(pickle.dumps((clock, running.entries)))
-    partial.replace(note)
-    while True:
-        time.sleep(0.1)
-        world.store()
-
-
 def edge(root: Path, note: Path | None) -> None:
     """Serve the bench of the lab in `root`: the table that `note` leads to, or a simulated one."""
     from pico.backends.hardware.opening import bench
     from pico.edge import own_lab
-    from pico.edge.lease import utc_now
     from pico.edge.link.server import edge_of, serve
     from pico.edge.local import LocalEdge
     from pico.edge.network.enrolment import read_enrolment
     from pico.edge.network.uplink import Uplink
+    from pico.runs.journal import utc_now  # to the millisecond
 
     enrolment = read_enrolment(root)
     assert enrolment is not None
@@ -114,9 +70,10 @@ def edge(root: Path, note: Path | None) -> None:
             clock, entries = pickle.loads(note.read_bytes())
             return clock, Entries(entries)
 
-        found = LocalEdge(
-            own_lab.setup_of(lab), root, lambda s: bench(s, root, "emulated", "kinematic", utc_now, bring_up), lab
-        )
+        def opening(setup: Any) -> Any:
+            return bench(setup, root, "emulated", "kinematic", utc_now, bring_up)
+
+        found = LocalEdge(own_lab.setup_of(lab), root, opening, lab, utc_now)
     uplink = Uplink(found, enrolment)
     asyncio.run(serve(found, beside=uplink.run))
 
@@ -130,45 +87,23 @@ def coordinator(folder: Path, port: int) -> None:
     asyncio.run(server(create_app(books_in(folder))).serve(sockets=[listening("127.0.0.1", port)]))
 
 
-def link(port: int, to: int) -> None:
-    """Hand bytes on between two ports: killed, both ends are cut off; frozen, nothing comes through."""
-
-    async def piped(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        with suppress(OSError):
-            while data := await reader.read(65536):
-                writer.write(data)
-                await writer.drain()
-        writer.close()
-
-    async def client(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        try:
-            there, back = await asyncio.open_connection("127.0.0.1", to)
-        except OSError:
-            writer.close()
-            return
-        await asyncio.gather(piped(reader, back), piped(there, writer))
-
-    async def serve() -> None:
-        async with await asyncio.start_server(client, "127.0.0.1", port):
-            await asyncio.Event().wait()
-
-    asyncio.run(serve())
-
-
 @dataclass
 class Network:
     """The lab in `folder`, and the processes that serve it by name. `emulated`: its table is emulated, in a process of
-    its own."""
+    its own. `cable`: to the namespace that edge and table are in, None where all are in one."""
 
     folder: Path
     emulated: bool
+    cable: Cable | None = None
     running: dict[str, int] = field(default_factory=dict)
     frozen: set[str] = field(default_factory=set)
+    weather: dict[str, Weather] = field(default_factory=lambda: {"link": Weather(), "line": Weather()})
+    """What the link of the edge, and the line of the clients, are like."""
 
     def __post_init__(self) -> None:
         from pico.history.examples.example import make_example
 
-        self.port, self.far = free_port(), free_port()
+        self.port, self.near, self.far = free_port(), free_port(), free_port()
         self.beside, self.checkout, self.books = (self.folder / n for n in ("beside", "checkout", "books"))
         make_example("shel", self.beside)
         make_example("shel", self.checkout)
@@ -178,7 +113,7 @@ class Network:
         self._enrol()
         from pico.edge.network.remotes import Remote, Remotes, keep
 
-        keep(self.checkout, Remotes({"lab": Remote(f"http://127.0.0.1:{self.port}")}, f"lab/{BENCH}"))
+        keep(self.checkout, Remotes({"lab": Remote(f"http://127.0.0.1:{self.near}")}, f"lab/{BENCH}"))
         os.environ["PICO_TOKEN"] = TOKEN
 
     def _enrol(self) -> None:
@@ -211,19 +146,34 @@ class Network:
     def note(self) -> Path | None:
         return self.folder / "table.pickle" if self.emulated else None
 
+    @property
+    def log(self) -> Path:
+        """What the controllers of the table did."""
+        return self.folder / "controllers.jsonl"
+
     def work(self) -> Mapping[str, Callable[[], None]]:
         """What each process does."""
-        found: dict[str, Callable[[], None]] = {
+        note, cable, weather = self.note, self.cable, self.weather
+        here, port = ("127.0.0.1", self.port), self.far
+        served: dict[str, Callable[[], None]] = {
             "coordinator": lambda: coordinator(self.books, self.port),
-            "link": lambda: link(self.far, self.port),
-            "edge": lambda: edge(self.beside, self.note),
+            "line": lambda: link(("127.0.0.1", self.near), here, weather["line"]),
+            "link": lambda: link((cable.here if cable else "127.0.0.1", port), here, weather["link"]),
         }
-        if (note := self.note) is not None:
-            return {"table": lambda: table(self.beside, note), **found}
-        return found
+        beside: dict[str, Callable[[], None]] = {}
+        if note is not None:
+            beside["table"] = lambda: table(self.beside, note, self.log)
+        if cable:
+            beside["plug"] = lambda: link(("127.0.0.1", port), (cable.here, port), Weather())
+        beside["edge"] = lambda: edge(self.beside, note)
+        return {**served, **{name: cable.beyond(one) if cable else one for name, one in beside.items()}}
 
     def start(self) -> None:
-        """Start, or let go on, whatever does not."""
+        """Start, or let go on, whatever does not, with links as they should be."""
+        for one in self.weather.values():
+            one.now = CLEAR
+        if self.cable:
+            self.cable.pull(False)
         for name in list(self.frozen):
             os.kill(self.running[name], signal.SIGCONT)
             self.frozen.discard(name)
@@ -235,7 +185,9 @@ class Network:
 
     def ready(self) -> bool:
         """Wait until the coordinator answers, and the edge has come to it; return whether that is so."""
-        return until(lambda: answers(self.port), 120) and until(self.met, 120)
+        return (
+            until(lambda: answers(self.near), 120) and until(lambda: answers(self.port), 120) and until(self.met, 120)
+        )
 
     def met(self) -> bool:
         """Return whether the edge has come to the coordinator."""
@@ -258,10 +210,19 @@ class Network:
         os.kill(self.running[name], signal.SIGSTOP)
         self.frozen.add(name)
 
+    def spoil(self, name: str, how: str) -> None:
+        """Let a link go wrong."""
+        if how == "pulled" and self.cable:
+            self.cable.pull(True)
+        else:
+            self.weather[name].now = WEATHER[how]
+
     def close(self) -> None:
         """End all processes."""
         for name in list(self.running):
             self.kill(name)
+        if self.cable:
+            self.cable.close()
 
 
 class Expiries:

@@ -1,17 +1,22 @@
-"""Kills and freezes the processes of a lab on the network: `python benchmarks/network_kills.py --runs 500`.
+"""Kills and freezes the processes of a lab on the network: `python benchmarks/network_kills.py --faults 500`.
 
 `pico apply` goes from a checkout through the coordinator to the edge of a bench whose emulated table, with the
-controllers of its arm and motors, has a process of its own. At a random instant the coordinator, the edge, the client,
-or the link between edge and coordinator is killed or frozen, for up to 15 s, and started anew. Then everything is
-healed: the run must end, and the same command from a client of its own must reach the goal. Prints the counts; exit
-code 1 where anything was lost, repeated, begun after its lease was over by the coordinator's books, or does not end.
+controllers of its arm and motors, has a process of its own. At random instants the coordinator, the edge or the client
+is killed, or frozen for up to longer than a lease lasts, and started anew, also while what came of the last fault is
+not over; meanwhile the links go wrong, too. After some faults everything is healed: every run must end, and the same
+command from a client of its own must reach the goal. Leases last 4 s and all that is waited goes with them. Prints the
+counts; exit code 1 where anything was lost, let fall, repeated, moved without an operation in the journal, moved after
+its lease was over by the coordinator's books (both by the log of the controllers), or does not end.
 
-`--sim`: on a simulated table in the edge's own process, which is sooner done.
+`--sim`: on a simulated table in the edge's own process, of which there is no such log. `--tables 2`: on two tables at a
+time. Where the machine lets an ordinary user make network namespaces, edge and table are in one of their own, and the
+cable to it is pulled, too; `--together`: all in one.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import random
 import signal
@@ -19,42 +24,64 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from datetime import datetime
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
+import network_judged as judged  # noqa: E402
 from kills import forked as command  # noqa: E402
-from kills import preload, repeated  # noqa: E402
+from kills import repeated  # noqa: E402
 from network_bench import Expiries, Network, until  # noqa: E402
+from network_hasty import hasten, preload  # noqa: E402
+from network_links import Cable, apart  # noqa: E402
+from network_table import REST  # noqa: E402
 
 GOALS = ("E1-3", "C1", "E3-2", "E2-1", "E1-1")
-VICTIMS = ("coordinator", "edge", "client", "link")
-ENDS = 240.0
+VICTIMS = ("coordinator", "edge", "edge", "client")
+PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 5.0)
+"""How long something stays killed or frozen, the last longer than a lease lasts [s]."""
+SPOILT = {"link": ("deaf", "dumb", "slow", "cut", "pulled"), "line": ("deaf", "dumb", "slow", "cut")}
+SPOILS = 0.3
+"""How often a link goes wrong before a fault."""
+TOGETHER = 8
+"""Faults before everything is healed."""
+ROUNDS = 4
+"""So often on one table, before a new one is made."""
+ENDS = 120.0
 """Seconds in which a run ends once all is healed, and another one is made [s]."""
-TOGETHER = 5
-"""Runs on one table, before a new one is made."""
-SLACK = 0.05
-"""So much may the clocks of journal and books differ, which count milliseconds [s]."""
 
 
-def over(child: int, seconds: float) -> int | None:
-    """Return the exit code of a client, None where it does not end in time: then it is killed."""
-    found: list[int] = []
+class Client:
+    """`pico apply`, again and again: at any time one of them is there."""
 
-    def ended() -> bool:
-        process, status = os.waitpid(child, os.WNOHANG)
+    def __init__(self, network: Network, draw: random.Random) -> None:
+        self._network, self._draw, self.goal, self.codes = network, draw, draw.choice(GOALS), Counter[int]()
+        self.child = self._start()
+
+    def _start(self) -> int:
+        return command(self._network.checkout, "apply", self.goal, "--auto-approve", "--lock-timeout", "30")
+
+    def ended(self) -> bool:
+        """Whether it has ended, which it is remembered for."""
+        process, status = os.waitpid(self.child, os.WNOHANG)
         if process:
-            found.append(os.waitstatus_to_exitcode(status))
+            self.codes[os.waitstatus_to_exitcode(status)] += 1
         return bool(process)
 
-    if until(ended, seconds):
-        return found[0]
-    os.kill(child, signal.SIGKILL)
-    os.waitpid(child, 0)
-    return None
+    def lives(self) -> None:
+        """Start another one where it has ended: to another goal where it came to its own."""
+        before = self.codes[0]
+        if self.ended():
+            self.goal = self._draw.choice(GOALS) if self.codes[0] > before else self.goal
+            self.child = self._start()
+
+    def hit(self, number: int) -> None:
+        """Send it a signal, if it is still there."""
+        os.kill(self.child, number)
 
 
 def places(network: Network) -> dict[str, tuple[str, object]]:
@@ -68,128 +95,209 @@ def places(network: Network) -> dict[str, tuple[str, object]]:
     return {n: (body.presence, body.pose) for n, body in world.components.items()}
 
 
-def records(network: Network) -> tuple[dict[str, str], list[Any]]:
-    """Return for whom each run was, and the records of the journal."""
+@dataclass
+class Seen:
+    """What there is to judge by: the journal's records and runs, what began and has no end, and what was asked of the
+    bench and never answered, by the coordinator's books."""
+
+    records: list[Any] = field(default_factory=list)
+    holders: dict[str, str] = field(default_factory=dict)
+    unsettled: list[str] = field(default_factory=list)
+    unanswered: list[str] = field(default_factory=list)
+
+
+def seen(network: Network) -> Seen:
+    """Read it."""
+    import sqlite3
+
     from pico.runs.journal import Journal
 
-    path = network.beside / ".pico" / "journal.sqlite"
-    if not path.exists():
-        return {}, []
-    journal = Journal(path, looking=True)
-    found = {run.run: run.holder for run in journal.runs()}, list(journal.records())
-    journal.close()
+    path, found = network.beside / ".pico" / "journal.sqlite", Seen()
+    if path.exists():
+        journal = Journal(path, looking=True)
+        found.records, found.unsettled = list(journal.records()), [one.key for one in journal.unsettled()]
+        found.holders = {run.run: run.holder for run in journal.runs()}
+        journal.close()
+    books = sqlite3.connect(f"file:{network.books / 'coordinator.sqlite'}?mode=ro", uri=True, timeout=10)
+    found.unanswered = [f"{key}: {state}" for key, state in books.execute(
+        "SELECT key, state FROM commands WHERE state NOT IN ('done', 'failed', 'unknown', 'refused')")]  # fmt: skip
+    books.close()
     return found
 
 
-def _lost(presence: str, other: bool, begun: bool) -> bool:
-    """Whether a part is gone, or is not as it was though nothing began to move it."""
-    return presence not in ("seen", "held") or (other and not begun)
-
-
-def wrong(network: Network, expiries: Expiries, before: dict[str, tuple[str, object]]) -> dict[str, list[str]]:
+def wrong(
+    network: Network, expiries: Expiries, before: Mapping[str, tuple[str, object]], faults: list[judged.Fault]
+) -> dict[str, list[str]]:
     """Return what went against the rules, by rule: `before` is where the parts were at first."""
-    holders, known = records(network)
-    started = [r for r in known if r.kind == "started"]
-    begun = {r.component for r in started}
-    now = places(network)
-    late = []
-    for record in started:
-        until_ = expiries.known.get(record.token)
-        at = datetime.fromisoformat(record.at).timestamp()
-        if holders.get(record.key.split("/")[0]) != "the edge" and (until_ is None or at > until_ + SLACK):
-            late.append(f"{record.key} at {record.at}, lease {record.token} until {until_}")
-    tokens = [r.token for r in started]
+    from pico.history.lab.folder import LabFolder
+
+    until(lambda: False, 3 * REST)  # the log is written once something has come to rest
+    known, log = seen(network), judged.controlled(network.log)
+    begun = judged.doings(known.records, known.holders, faults)
+    named = {one.operation.component for one in begun}
+    lost = [
+        f"{name} is {presence} at {pose}"
+        for name, (presence, pose) in places(network).items()
+        if presence not in ("seen", "held") or ((presence, pose) != before[name] and name not in named)
+    ]
+    tokens = [one.token for one in sorted(begun, key=lambda one: one.since)]
     return {
-        "lost": [
-            n for n, (presence, pose) in now.items() if _lost(presence, (presence, pose) != before[n], n in begun)
-        ],
-        "repeated": repeated(network.beside),
-        "after the deadline": late,
+        "lost": [*lost, *judged.dropped(log)],
+        "repeated": [*repeated(network.beside), *judged.repeated(LabFolder(network.beside).setup, log, begun)],
+        "after the deadline": list(judged.late(log, begun, expiries.known, faults)),
+        "without an operation": list(judged.unjournaled(log, begun)) if network.emulated else [],
         "out of order": [] if tokens == sorted(tokens) else [str(tokens)],
+        "not ended": [*known.unsettled, *known.unanswered],
     }
 
 
-def once(network: Network, draw: random.Random, count: Counter[str], longest: float) -> str:
-    """Apply, and kill or freeze somebody meanwhile; return what is wrong."""
-    goal, victim, deed = draw.choice(GOALS), draw.choice(VICTIMS), draw.choice(("killed", "frozen"))
-    words = ("apply", goal, "--auto-approve", "--lock-timeout", "60")
-    client = command(network.checkout, *words)
-    time.sleep(draw.uniform(0.2, longest))
-    count[f"{victim} {deed}"] += 1
-    pause = draw.choice((0.1, 1.0, 4.0, 12.0, 15.0))
+def fault(network: Network, client: Client, draw: random.Random, longest: float) -> judged.Fault:
+    """Let something befall somebody, and be over."""
+    end = time.monotonic() + draw.uniform(0.0, longest)
+    while time.monotonic() < end:
+        client.lives()
+        time.sleep(0.02)
+    if draw.random() < SPOILS:
+        name = draw.choice(sorted(SPOILT))
+        ways = [how for how in SPOILT[name] if how != "pulled" or network.cable]
+        network.spoil(name, draw.choice(ways))
+    victim, deed, pause = draw.choice(VICTIMS), draw.choice(("killed", "frozen")), draw.choice(PAUSES)
+    client.lives()
+    since = time.time()
     if victim == "client":
-        os.kill(client, signal.SIGKILL if deed == "killed" else signal.SIGSTOP)
-    elif deed == "killed":
-        network.kill(victim)
-    else:
-        network.freeze(victim)
+        client.hit(signal.SIGKILL if deed == "killed" else signal.SIGSTOP)
+    elif victim in network.running:
+        (network.kill if deed == "killed" else network.freeze)(victim)
     time.sleep(pause)
     if victim == "client" and deed == "frozen":
-        os.kill(client, signal.SIGCONT)
+        client.hit(signal.SIGCONT)
     network.start()
+    return judged.Fault(victim, deed, since, time.time())
+
+
+def healed(network: Network, client: Client, told: str) -> list[str]:
+    """Let all that goes on end, and the goal be reached; return what does not."""
     if not network.ready():
-        return f"{goal}: coordinator and edge do not find each other after the {victim} was {deed} for {pause:g} s"
-    if over(client, ENDS) is None:
-        return f"{goal}: the client did not end after the {victim} was {deed} for {pause:g} s"
-    again = command(network.checkout, *words, out="again.txt")
-    code = over(again, ENDS)
-    said = (network.checkout / "again.txt").read_text()[-700:]
-    if code != 0:
-        return f"{goal}: after the {victim} was {deed} for {pause:g} s, again: {code}: {said}"
-    plan = over(command(network.checkout, "plan", goal, "--detailed-exitcode", out="plan.txt"), ENDS)
-    holders, _ = records(network)
-    if plan != 0:
-        text = (network.checkout / "plan.txt").read_text()[-400:]
-        return f"{goal}: not reached after the {victim} was {deed}: {plan}: {text}"
-    return "" if holders else "nothing was run"
+        return [f"coordinator and edge do not find each other after {told}"]
+    if not until(client.ended, ENDS):
+        client.hit(signal.SIGKILL)
+        os.waitpid(client.child, 0)
+        return [f"{client.goal}: the client did not end after {told}"]
+    for words in (("apply", client.goal, "--auto-approve", "--lock-timeout", "30"),
+                  ("plan", client.goal, "--detailed-exitcode")):  # fmt: skip
+        last = Client.__new__(Client)
+        last.codes, last.child = Counter(), command(network.checkout, *words, out="again.txt")
+        if not until(last.ended, ENDS):
+            os.kill(last.child, signal.SIGKILL)
+            os.waitpid(last.child, 0)
+        if last.codes[0] != 1:
+            said = (network.checkout / "again.txt").read_text()[-1500:]
+            return [f"{' '.join(words[:2])} after {told}: {dict(last.codes)}: {said}"]
+    return []
 
 
-def several(folder: Path, draw: random.Random, count: Counter[str], given: argparse.Namespace) -> dict[str, list[str]]:
-    """Apply some times on a new table, until something is wrong; return what is, by rule."""
-    network, failures = Network(folder, emulated=not given.sim), list[str]()
+def table(folder: Path, draw: random.Random, count: Counter[str], given: argparse.Namespace) -> dict[str, list[str]]:
+    """Let faults befall a new table, until something is wrong; return what is, by rule."""
+    network = Network(folder, emulated=not given.sim, cable=None if given.together else Cable())
+    faults: list[judged.Fault] = []
     network.start()
     expiries = Expiries(network.books)
+    found: dict[str, list[str]] = {}
     try:
         network.ready()
         before = places(network)
-        for _ in range(min(TOGETHER, given.runs - count["runs"])):
-            count["runs"] += 1
-            if told := once(network, draw, count, given.longest):
-                failures.append(told)
+        for _ in range(ROUNDS):
+            client = Client(network, draw)
+            for _ in range(min(TOGETHER, given.faults - count["faults"])):
+                faults.append(fault(network, client, draw, given.longest))
+                count["faults"] += 1
+                count[f"{faults[-1].victim} {faults[-1].deed}"] += 1
+            told = ", ".join(f"{f.victim} {f.deed} {f.until - f.since:.1f} s" for f in faults[-TOGETHER:])
+            unreached = healed(network, client, told)
+            count["applies"] += sum(client.codes.values())
+            found = {"not ended or not reached": unreached, **wrong(network, expiries, before, faults)}
+            if any(found.values()) or count["faults"] >= given.faults:
                 break  # what comes after it stands on a table that is not right
-        return {"not ended or not reached": failures, **wrong(network, expiries, before)}
+        if given.keep and any(found.values()):
+            keep(network, faults, expiries, given.keep)
+        return found
     finally:
         expiries.close()
         network.close()
 
 
+def keep(network: Network, faults: list[judged.Fault], expiries: Expiries, where: Path) -> None:
+    """Keep what there is of a table on which something was wrong."""
+    import shutil
+    from dataclasses import asdict
+
+    to = where / f"{int(time.time())}"
+    shutil.copytree(network.folder, to, ignore=shutil.ignore_patterns("*.pickle"))
+    (to / "faults.json").write_text(json.dumps([[asdict(f) for f in faults], expiries.known]))
+
+
 def main() -> int:
     """Kill."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--runs", type=int, default=500)
+    parser.add_argument("--faults", type=int, default=500)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--sim", action="store_true", help="a simulated table, in the edge's own process")
-    parser.add_argument("--minutes", type=float, default=1e6, help="no run is begun after them")
-    parser.add_argument("--pace", type=float, default=5.0, help="of the emulated table's time")
-    parser.add_argument("--longest", type=float, default=20.0, help="of the random instants [s]")
+    parser.add_argument("--tables", type=int, default=1, help="so many at a time")
+    parser.add_argument("--together", action="store_true", help="all in one network namespace")
+    parser.add_argument("--minutes", type=float, default=1e6, help="no table is begun after them")
+    parser.add_argument("--pace", type=float, default=10.0, help="of the emulated table's time")
+    parser.add_argument("--longest", type=float, default=4.0, help="between two faults [s]")
+    parser.add_argument("--keep", type=Path, help="folder for what there is of tables on which something was wrong")
     given = parser.parse_args()
+    if not given.together and (why := apart()):
+        print(f"no network namespaces here ({why}): all processes are in one", flush=True)
+        given.together = True
     os.environ["PICO_EMULATED_PACE"] = str(given.pace)
+    hasten()
     preload()
-    draw, count, found = random.Random(given.seed), Counter[str](), dict[str, list[str]]()
     began = time.monotonic()
-    while count["runs"] < given.runs and time.monotonic() < began + 60 * given.minutes:
+    with tempfile.TemporaryDirectory() as temporary:
+        shares = [given.faults // given.tables + (n < given.faults % given.tables) for n in range(given.tables)]
+        results = [Path(temporary) / f"{n}.json" for n in range(given.tables)]
+        children = []
+        for number, result in enumerate(results[1:], start=1):
+            child = os.fork()
+            if not child:
+                _share(number, shares[number], given, result)
+                os._exit(0)
+            children.append(child)
+        _share(0, shares[0], given, results[0])
+        for child in children:
+            os.waitpid(child, 0)
+        found, count = dict[str, int](), Counter[str]()
+        for result in results:
+            counted, broken = json.loads(result.read_text())
+            count.update(counted)
+            for rule, n in broken.items():
+                found[rule] = found.get(rule, 0) + n
+    faults, applies, tables = count.pop("faults"), count.pop("applies"), count.pop("tables")
+    what = ", ".join(f"{name} {n}" for name, n in sorted(count.items()))
+    rules = ", ".join(f"{n} {rule}" for rule, n in found.items())
+    spent, kind = time.monotonic() - began, "simulated" if given.sim else "emulated"
+    where = "all in one network namespace" if given.together else "the edge in a network namespace of its own"
+    print(f"{faults} faults ({what}) during {applies} applies over the network ({tables} {kind} tables, {where}): "
+          f"{rules}; {spent:.0f} s, {spent / max(1, faults):.1f} s a fault")  # fmt: skip
+    return 1 if any(found.values()) else 0
+
+
+def _share(number: int, faults: int, given: argparse.Namespace, result: Path) -> None:
+    given.faults = faults
+    draw, count, found = random.Random(given.seed * 1000 + number), Counter[str](), dict[str, int]()
+    began = time.monotonic()
+    while count["faults"] < faults and time.monotonic() < began + 60 * given.minutes:
+        count["tables"] += 1
         with tempfile.TemporaryDirectory() as temporary:
-            for rule, broken in several(Path(temporary), draw, count, given).items():
-                found.setdefault(rule, []).extend(broken)
+            for rule, broken in table(Path(temporary), draw, count, given).items():
+                found[rule] = found.get(rule, 0) + len(broken)
                 for one in broken:
                     print(f"{rule}: {one}", flush=True)
-            print(f"{count['runs']} runs, {time.monotonic() - began:.0f} s", flush=True)
-    runs = count.pop("runs")
-    what = ", ".join(f"{name} {n}" for name, n in sorted(count.items()))
-    rules = ", ".join(f"{len(broken)} {rule}" for rule, broken in found.items())
-    kind = "simulated" if given.sim else "emulated"
-    print(f"{runs} applies over the network ({kind}; {what}): {rules}; {time.monotonic() - began:.0f} s")
-    return 1 if any(found.values()) else 0
+        print(f"table {number}: {count['faults']} faults, {time.monotonic() - began:.0f} s", flush=True)
+    result.write_text(json.dumps([count, found]))
 
 
 if __name__ == "__main__":
