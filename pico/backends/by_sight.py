@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.attempt import Failed
-from pico.backends.last_seen import Taken, recall_hands, remember_hands, repeated
+from pico.backends.last_seen import LastSeen, Taken, recall, recall_hands, remember, remember_hands, repeated
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
 from pico.model.setup import Setup
@@ -78,6 +78,16 @@ class BySight:
             tool = tool_of(self._setup.lab.robots[path.robot], grip.joints[-1])
             self._taken[path.robot] = Taken(component=component, pose=tool.inverse().compose(stands))
             remember_hands(self._root, self._taken, self._bench)
+
+    def lets_go(self, component: str, path: MovePath, now: float) -> None:
+        """Remember where a hand on `path` is about to let go of a component, for who comes after: where this process is
+        killed while the arm stands over it, no camera sees it. `now`: on the bench's clock [s]."""
+        release = next((s for s in path.segments if s.name == "release"), None)
+        taken = self._taken.get(path.robot)
+        if release is not None and taken is not None and taken.component == component:
+            pose = tool_of(self._setup.lab.robots[path.robot], release.joints[-1]).compose(taken.pose)
+            there = LastSeen(pose=pose, uncertainty=repeated(self._setup, component), time=now, placed=True)
+            remember(self._root, {**recall(self._root, self._bench), component: there}, self._bench)
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         """Look from above at a part that was put down near a pose, or lost, and return it; where the arm hides it, the

@@ -13,13 +13,14 @@ from oracles.poison import Poisoned, poisoned
 from test_sight import seeing
 
 from pico.backends.device import Began
-from pico.backends.last_seen import Taken, remember_hands
+from pico.backends.last_seen import Taken, recall, remember_hands
 from pico.backends.sim.device import SimDevice
 from pico.backends.sim.hand import nudge
 from pico.backends.sim.session import WorldSession
 from pico.backends.sim.store import save_world
 from pico.backends.sim.world import new_world
 from pico.cameras.simulated import Eyes
+from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
@@ -119,6 +120,23 @@ def test_when_no_picture_comes_any_more_the_part_is_left_alone(tmp_path: Path, m
     assert result.error is not None and result.outcome == "failed"
     assert {result.error.code} <= {"unseen", "marker-dark"}
     assert bench.true().distance(before) < 0.01
+
+
+@pytest.mark.parametrize("fidelity", ["physics", "kinematic"])
+def test_where_a_part_was_put_down_is_known_to_who_comes_after_a_kill(tmp_path: Path, fidelity: str) -> None:
+    """Nobody had looked at it yet, and the arm that stands over it may hide it."""
+    bench, known, left = Bench(tmp_path, fidelity), [], recall(tmp_path)[PART]
+    confirm = bench.session._known.confirm
+
+    def looks(component: str, near: Pose) -> ObservedComponent:
+        known.append(recall(tmp_path)[component])
+        return confirm(component, near)
+
+    bench.session._known.confirm = looks  # type: ignore[method-assign]
+    with poisoned():
+        bench.move()
+    assert left.pose.distance(START) < 0.5 and not left.placed
+    assert known[0].pose.distance(GOAL) < 0.5 and known[0].placed and known[0].time > left.time
 
 
 def test_a_hand_that_was_stopped_is_known_to_hold_its_part_by_who_comes_after(tmp_path: Path) -> None:

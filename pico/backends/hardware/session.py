@@ -304,6 +304,8 @@ class HardwareSession:
             self._tell("operation_progress", operation, key, data)
             if self._halting:
                 await self._leave(operation, path, stage)
+            if stage.segment == "release":
+                await self._asked(self._known.lets_go, path.component or operation.component, path, self._now())
 
         way = self._way(operation, path, asked, speed)
         await self._require_kept(robot)

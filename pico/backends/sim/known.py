@@ -32,6 +32,10 @@ class Known(Protocol):
         """Be told that a hand goes along `path` to take a part."""
         ...
 
+    def lets_go(self, component: str, path: MovePath, now: float) -> None:
+        """Be told that a hand on `path` is about to let go of a part; `now`: on the bench's clock [s]."""
+        ...
+
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         """Look at a part that was put down near a pose, or lost, and return it."""
         ...
@@ -55,6 +59,9 @@ class Exactly:
 
     def takes(self, component: str, path: MovePath) -> None:
         """Know it anyway."""
+
+    def lets_go(self, component: str, path: MovePath, now: float) -> None:
+        """See where it then stands."""
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         """Return the part as it is."""

@@ -449,6 +449,8 @@ class WorldSession:
                 if self._halting and not decided:
                     decided = yield from self._way_out(operation, path, stage, work)
                 phase, before = stage.segment, phase
+                if phase == "release" and before != phase:
+                    self._known.lets_go(path.component or operation.component, path, self._time.now)
                 if (before in ("grip", "release") and phase != before) or time.monotonic() - self._kept > KEPT:
                     self._keep()
                 try:

@@ -84,7 +84,7 @@ async def link(socket: WebSocket) -> None:
         async with asyncio.timeout(GREETING):
             line, records = await _greeted(socket, bench, nonce, key)
     except (KeyError, TypeError, ValueError, TimeoutError, PicoError, WebSocketDisconnect):
-        with suppress(RuntimeError):
+        with suppress(RuntimeError, WebSocketDisconnect):  # it is gone already
             await socket.close(STRANGER)
         return
     dispatcher: Dispatcher = socket.app.state.dispatcher
@@ -109,7 +109,7 @@ async def link(socket: WebSocket) -> None:
     except (WebSocketDisconnect, RuntimeError):
         pass
     except (KeyError, TypeError, ValueError, AttributeError, PicoError):
-        with suppress(RuntimeError):
+        with suppress(RuntimeError, WebSocketDisconnect):
             await socket.close(BROKEN)
     finally:
         dispatcher.hub.left(line)

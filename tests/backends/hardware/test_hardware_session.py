@@ -134,6 +134,9 @@ class Known(BySight):
     def takes(self, component: str, path: Any) -> None:
         """Nothing is kept."""
 
+    def lets_go(self, component: str, path: Any, now: float) -> None:
+        self.bench.said.append(f"lets go of {component}")
+
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         return self.seen().components[component]
 
@@ -235,6 +238,8 @@ def test_a_part_is_picked_carried_and_put_down_and_seen_where_it_should_be(setup
     grip = next(i for i, said in enumerate(bench.said) if said == "fingers 30")
     assert words[grip - 1] == "follow" and words[grip + 1 : grip + 4] == ["follow"] * 3
     assert bench.said.count("follow op3: move lx_125") == bench.legs == 6
+    let_go = bench.said.index("lets go of lx_125")
+    assert bench.said[let_go + 1] == "fingers 54" and let_go > grip, "that is kept while it still holds it"
     assert bench.loads == [(2, setup.type_of("lx_125").geometry.mass), (5, 0.0)], "from the grip to the release"
 
 
