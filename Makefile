@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-slow check schemas clean
+.PHONY: demo test test-slow test-gui check schemas ui clean
 .DELETE_ON_ERROR:
 
 demo: $(STAMP)
@@ -23,7 +23,16 @@ check: $(STAMP)
 	$(BIN)/mypy
 	$(BIN)/python -m pico.manifest.schema --check
 	$(BIN)/python -m pico.recipes.schema --check
+	$(BIN)/python .ci/page.py check
 	$(BIN)/python .ci/wheel.py
+
+# The page for browsers, built of ui/ into pico/server/static/; needs Node and npm.
+ui: $(STAMP)
+	$(BIN)/python .ci/page.py build
+
+# The page in a real browser, against a real coordinator; says what it lacks.
+test-gui: $(STAMP)
+	$(BIN)/python .ci/page.py test
 
 schemas: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema

@@ -22,13 +22,13 @@ MOVED = {
     "version": "pico doctor",
 }
 RESERVED = {
-    "gui": "PICO in a browser",
+    "mcp": "assistants that speak the Model Context Protocol",
 }
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
     "stash", "swap", "budget", "devices", "edge",
-    "commission", "serve", "remote", "login", "lease", "token",
+    "check", "commission", "serve", "remote", "login", "lease", "token",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 

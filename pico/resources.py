@@ -25,3 +25,8 @@ def labs_dir() -> Path:
 def schemas_dir() -> Path:
     """Return the folder of the generated JSON Schemas."""
     return _folder("schemas")
+
+
+def page_dir() -> Path:
+    """Return the folder of the built page that the coordinator serves."""
+    return _HERE / "server" / "static"

@@ -98,7 +98,7 @@ async def _demonstrate(session: Session, serving: Any, listener: Any, books: Boo
     """Serve with a bench that is not there."""
     from ..runs.demonstration import Demonstration
 
-    shown = Demonstration(lab, books.folder, books, url)
+    shown = Demonstration(lab, books.folder / lab, books, url)
     shown.make()
     going = asyncio.create_task(serving.serve(sockets=[listener]))
     try:

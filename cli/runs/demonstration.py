@@ -1,4 +1,4 @@
-"""A laboratory on the network that is not there: an example lab in the twin, its edge in a process of its own."""
+"""A bench at a coordinator of this process, its edge in a process of its own: of an example lab, or of one's own."""
 
 from __future__ import annotations
 
@@ -33,14 +33,18 @@ class Demonstrated:
 
 
 class Demonstration:
-    """The bench of an example `lab` whose files are in `folder`, at a coordinator that serves `books` at `url`."""
+    """The bench of the lab in `root`, called `lab`, at a coordinator that serves `books` at `url`; `person` is let in.
+    `options`: of `pico edge`."""
 
-    def __init__(self, lab: str, folder: Path, books: Books, url: str) -> None:
-        self._lab, self._root, self._books, self._url = lab, folder / lab, books, url
+    def __init__(
+        self, lab: str, root: Path, books: Books, url: str, person: str = PERSON, options: tuple[str, ...] = ()
+    ) -> None:
+        self._lab, self._root, self._books, self._url = lab, root, books, url
+        self._person, self._options = person, options
         self._process: subprocess.Popen[bytes] | None = None
 
     def make(self) -> None:
-        """Make the lab where it is not there yet; raises PicoError for an example that there is not."""
+        """Make the example where it is not there yet; raises PicoError for an example that there is not."""
         if not (self._root / ".git").exists():
             from pico.history.examples.example import make_example
 
@@ -59,9 +63,11 @@ class Demonstration:
             code, _ = await books.do(Edges(books.database).invited, bench, ADMIN)
             await asyncio.to_thread(enrol, self._root, self._url, code)
         rights = [Right("*", "admin"), *(Right(self._lab, role) for role in ROLES if role != "admin")]
-        await books.do(books.people.settled, PERSON, rights, by=ADMIN)
-        made = await books.do(books.people.issued, PERSON, 86400.0, by=ADMIN, kind="code", label="demonstration")
-        words = [sys.executable, "-m", "pico_cli", "-C", str(self._root), "edge"]
+        await books.do(books.people.settled, self._person, rights, by=ADMIN)
+        made = await books.do(
+            books.people.issued, self._person, 86400.0, by=ADMIN, kind="code", label="on this machine"
+        )
+        words = [sys.executable, "-m", "pico_cli", "-C", str(self._root), "edge", *self._options]
         self._process = subprocess.Popen(
             words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, start_new_session=True
         )

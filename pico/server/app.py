@@ -18,6 +18,7 @@ from pico.server.guard.addresses import LOOPBACK
 from pico.server.guard.gatekeeper import Gatekeeper
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import document, failure
+from pico.server.page.serving import page
 from pico.server.relay.relaying import relaying
 from pico.server.routes import calls, edge, events, labs, leases, link, people
 from pico.server.routes.admitting import refusal
@@ -49,6 +50,7 @@ def create_app(books: Books, names: Collection[str] = LOOPBACK, *, parts: Collec
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
     for router in ROUTERS:
         app.include_router(router)
+    app.router.routes.extend(page())
     app.add_middleware(Gatekeeper, names=names)
     app.add_exception_handler(PicoError, _refused)
     app.add_exception_handler(RequestValidationError, _invalid)

@@ -82,12 +82,12 @@ def test_no_command_keeps_a_name_of_before_and_the_table_has_every_name() -> Non
 def test_a_command_file_of_a_reserved_name_takes_over_by_being_there(
     tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    said = 'def gui() -> None:\n    """Open PICO in a browser."""\n    print("here it is")\n'
-    (tmp_path / "gui.py").write_text(f'"""The simulator, and the rest, 99: `pico gui`."""\n\n{said}')
+    said = 'def mcp() -> None:\n    """Serve an assistant."""\n    print("here it is")\n'
+    (tmp_path / "mcp.py").write_text(f'"""The simulator, and the rest, 99: `pico mcp`."""\n\n{said}')
     monkeypatch.setattr(commands, "__path__", [*commands.__path__, str(tmp_path)])
-    assert "  gui         Open PICO in a browser." in help_text()
-    assert (pico("gui").code, pico("gui").out) == (0, "here it is\n")
-    build().commands.pop("gui")
+    assert "  mcp         Serve an assistant." in help_text()
+    assert (pico("mcp").code, pico("mcp").out) == (0, "here it is\n")
+    build().commands.pop("mcp")
 
 
 def test_help_is_also_a_word(capsys: pytest.CaptureFixture[str]) -> None:

@@ -71,7 +71,7 @@ def test_openapi_tells_of_every_route_and_each_has_a_role(declared: Any) -> None
     there = {(method, r.path) for r in routes(declared) if isinstance(r, APIRoute) for method in r.methods}
     assert there == told and len(told) > 10
     others = {r.path for r in routes(declared) if isinstance(r, Route) and not isinstance(r, APIRoute)}
-    assert others == {"/api/openapi.json"}
+    assert "/" in others and {path for path in others if path.startswith("/api")} == {"/api/openapi.json"}
     assert {role for _, _, role in operations(declared)} <= {*ROLES, "public", "known", "any"}
 
 

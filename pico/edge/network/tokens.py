@@ -26,6 +26,11 @@ def keep_token(url: str, token: str) -> None:
     _write({**_read(), url.rstrip("/"): token})
 
 
+def forget_token(url: str) -> None:
+    """Keep no token for the coordinator at `url` any more; raises PicoError."""
+    _write({where: token for where, token in _read().items() if where != url.rstrip("/")})
+
+
 def places() -> tuple[str, ...]:
     """Return the addresses of the coordinators that there are tokens for; raises PicoError."""
     return tuple(_read())

@@ -67,7 +67,8 @@ def longest(path: str) -> int:
 
 
 class _Bounded:
-    """Counts what comes in, also where no length was said, and adds the headers of every answer."""
+    """Counts what comes in, also where no length was said, and adds the headers that every answer has which says
+    no other ones."""
 
     def __init__(self, app: Any, limit: int) -> None:
         self._app, self._limit = app, limit
@@ -86,7 +87,9 @@ class _Bounded:
 
         async def marked(message: Any) -> None:
             if message["type"] in ("http.response.start", "websocket.http.response.start"):
-                message["headers"] = [*message.get("headers", ()), *_HEADERS]
+                said = list(message.get("headers", ()))
+                names = {name.lower() for name, _ in said}
+                message["headers"] = [*said, *(header for header in _HEADERS if header[0] not in names)]
             await send(message)
 
         await self._app(scope, counted, marked)

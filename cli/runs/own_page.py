@@ -1,0 +1,109 @@
+"""The page for the lab of a folder: a coordinator of this process, for this machine alone, and the bench at it."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import getpass
+import re
+import webbrowser
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from pico.diagnostics import ExitCode, PicoError, error
+
+from .demonstration import Demonstration
+
+if TYPE_CHECKING:
+    from pico.server.store.books import Books
+
+REMOTE = "gui"
+"""What the coordinator of the page is called among the checkout's remotes while it serves."""
+
+
+def required_free(root: Path) -> None:
+    """Raise PicoError where the bench of the lab in `root` is another coordinator's, or somebody serves it already."""
+    from pico.edge.link import place
+    from pico.edge.network import remotes
+    from pico.edge.network.enrolment import read_enrolment
+
+    known, mine = read_enrolment(root), remotes.known(root).named.get(REMOTE)
+    if known is not None and (mine is None or mine.url != known.url):
+        hint = f"open {known.url} in the browser; `pico edge withdraw` takes the bench from there"
+        raise PicoError(error("enrolled", f"this bench is enrolled as {known.bench} at {known.url}", hint=hint))
+    if place.find(root) is not None:
+        text = "somebody serves this bench already"
+        raise PicoError(
+            error("locked", text, hint="end that first (`pico edge`, or another `pico gui`)"), ExitCode.LOCKED
+        )
+
+
+def person() -> str:
+    """Return what the user of this machine is called at its own coordinator."""
+    bare = re.sub(r"[^a-z0-9._-]+", "-", getpass.getuser().lower()).strip("._-")[:64]
+    return bare or "me"
+
+
+class OwnPage:
+    """The page for the lab in `root`, called `lab`, at `url`."""
+
+    def __init__(self, lab: str, root: Path, books: Books, url: str, options: tuple[str, ...]) -> None:
+        self._root, self._books, self._url, self._lab = root, books, url, lab
+        self._bench = Demonstration(lab, root, books, url, person(), options)
+
+    async def begin(self) -> str:
+        """Connect the bench, let commands in the folder go through the page's coordinator, and return the address of
+        the page with a code in it that lets in once. Raises PicoError."""
+        from pico.server.store.first import ADMIN
+
+        shown = await self._bench.begin()
+        made = await self._books.do(self._books.people.issued, person(), 86400.0, by=ADMIN, label="commands here")
+        await asyncio.to_thread(self._know, shown.bench, made.secret)
+        return f"{self._url}/#code={shown.code}"
+
+    def _know(self, bench: str, secret: str) -> None:
+        from pico.edge.network import remotes, tokens
+
+        known = remotes.known(self._root)
+        named = {**known.named, REMOTE: remotes.Remote(self._url)}
+        remotes.keep(self._root, replace(known, named=named, default=f"{REMOTE}/{bench}"))
+        tokens.keep_token(self._url, secret)
+
+    def end(self) -> None:
+        """Let the bench be its folder's own again."""
+        from pico.edge.network import remotes, tokens
+        from pico.edge.network.enrolment import withdraw
+
+        self._bench.end()
+        withdraw(self._root)
+        known = remotes.known(self._root)
+        if REMOTE in known.named:
+            remotes.keep(self._root, remotes.removed(known, REMOTE))
+        tokens.forget_token(self._url)
+
+
+async def served(page: OwnPage, serving: Any, listener: Any, say: Callable[[str], None]) -> None:
+    """Serve the page until SIGINT or SIGTERM; `say` is told its address once it is there."""
+    going = asyncio.create_task(serving.serve(sockets=[listener]))
+    try:
+        while not serving.started and not going.done():
+            await asyncio.sleep(0.01)
+        beginning = asyncio.create_task(page.begin())
+        await asyncio.wait([beginning, going], return_when=asyncio.FIRST_COMPLETED)
+        if beginning.done():
+            say(beginning.result())
+        beginning.cancel()
+        await going
+    finally:
+        serving.should_exit = True
+        await asyncio.to_thread(page.end)
+        await asyncio.wait([going])
+
+
+def opened(address: str) -> bool:
+    """Open an address in the user's browser; return whether there is one."""
+    with contextlib.suppress(webbrowser.Error):
+        return webbrowser.open(address)
+    return False

@@ -1,0 +1,1 @@
+"""The page for browsers, as it was built of `ui/`: what it shows it asks for as any client does."""

@@ -1,0 +1,188 @@
+/** The bench that the page shows: its scene, its line, who has it, and the red button. */
+
+import { ask, filled, Refused, type Path } from "../api/client";
+import { decode, type Frame } from "../live/frame";
+import { Line } from "../live/line";
+import { changed, read, type Scene } from "../twin/scene";
+import { session, type Lease } from "./session.svelte";
+import { told } from "./told.svelte";
+
+const MINE = `page-${sessionStorage.getItem("pico-session") ?? fresh()}`;
+
+function fresh(): string {
+  const made = Array.from(crypto.getRandomValues(new Uint8Array(6)), (one) => one.toString(16).padStart(2, "0")).join("");
+  sessionStorage.setItem("pico-session", made);
+  return made;
+}
+
+export interface LiveEvent { seq: number; epoch: number; rev: number; kind: string; data: unknown }
+
+class Bench {
+  name = $state<string | null>(null);
+  scene = $state.raw<Scene | null>(null);
+  line = $state<"opening" | "open" | "lost">("opening");
+  lease = $state<Lease | null>(null);
+  /** When the lease was asked for [ms of this page's clock]: what is left of it counts from there. */
+  asked = $state(0);
+  token = $state<number | null>(null);
+  stopping = $state(false);
+  /** Who hears each frame; the twin does. */
+  onframe: (frame: Frame) => void = () => undefined;
+  #events = new Set<(event: LiveEvent) => void>();
+  #line: Line | null = null;
+  #watch: Line | null = null;
+  #renewing = 0;
+  #seq = 0;
+  /** Whether the bench's edge is connected to the coordinator. */
+  edge = $state<"here" | "away">("here");
+
+  readonly session = MINE;
+  get lab(): string { return this.name?.split("/")[0] ?? ""; }
+  get at(): Record<string, string> {
+    const [lab = "", bench = ""] = (this.name ?? "").split("/");
+    return { lab, bench };
+  }
+
+  listen(hears: (event: LiveEvent) => void): () => void {
+    this.#events.add(hears);
+    return () => this.#events.delete(hears);
+  }
+
+  open(name: string): void {
+    this.close();
+    this.name = name;
+    const path = filled("/api/benches/{lab}/{bench}/live", this.at);
+    this.#line = new Line(path, {
+      opened: () => undefined,
+      text: (data) => this.#said(data as LiveEvent),
+      binary: (data) => this.#moved(data),
+      state: (state) => (this.line = state),
+    });
+    this.#watch = new Line("/api/events", {
+      opened: () => void this.look(),
+      text: (data) => { if ((data as { bench?: string }).bench === this.name) void this.look(); },
+      binary: () => undefined,
+      state: () => undefined,
+    });
+  }
+
+  close(): void {
+    this.#line?.close();
+    this.#watch?.close();
+    clearInterval(this.#renewing);
+    this.scene = this.lease = this.token = null;
+  }
+
+  async #snapshot(): Promise<void> {
+    try {
+      this.scene = read(await ask("get", "/api/benches/{lab}/{bench}/scene" as Path, this.at));
+      this.edge = "here";
+    } catch (failure) {
+      if (failure instanceof Refused && failure.status >= 500) this.edge = "away";
+      else told.failed(failure);
+    }
+  }
+
+  #said(said: LiveEvent | { hello: { epoch: number | null; seq: number } }): void {
+    if ("hello" in said) {
+      this.#seq = said.hello.seq;
+      if (said.hello.epoch === null) this.edge = "away";
+      return void this.#snapshot();
+    }
+    const hole = said.seq !== this.#seq + 1;
+    this.#seq = said.seq;
+    if (said.kind === "away") this.edge = "away";
+    else if (said.kind === "lease") void this.look();
+    else if (hole || said.kind === "scene" || said.epoch !== this.scene?.epoch) void this.#snapshot();
+    else if (said.rev > this.scene.rev) this.scene = changed(this.scene, said);
+    for (const hears of this.#events) hears(said);
+  }
+
+  #moved(data: ArrayBuffer): void {
+    const frame = decode(data);
+    if (this.scene && frame.epoch === this.scene.epoch) this.onframe(frame);
+  }
+
+  // who has it
+
+  async look(): Promise<void> {
+    try {
+      this.lease = await ask<Lease>("get", "/api/benches/{lab}/{bench}/lease", this.at);
+      this.asked = performance.now();
+    } catch (failure) {
+      if (!(failure instanceof Refused && failure.status === 0)) told.failed(failure);
+    }
+  }
+
+  async take(): Promise<void> {
+    await told.trying(async () => {
+      const found = await ask<{ state: string; token?: number; lasts?: number }>(
+        "post", "/api/benches/{lab}/{bench}/lease", this.at, { session: MINE, wait: 2 });
+      if (found.token !== undefined) this.#keep(found.token, found.lasts!);
+      else told.say("Asked for: you are told when it is your turn.");
+    });
+    await this.look();
+  }
+
+  async release(): Promise<void> {
+    clearInterval(this.#renewing);
+    await told.trying(() => ask("delete", "/api/benches/{lab}/{bench}/lease", { ...this.at, session: MINE, token: this.token ?? 0 }));
+    this.token = null;
+    await this.look();
+  }
+
+  async steal(reason: string): Promise<void> {
+    await told.trying(async () => {
+      const found = await ask<{ token: number; lasts: number }>(
+        "post", "/api/benches/{lab}/{bench}/lease/steal", this.at, { session: MINE, reason });
+      this.#keep(found.token, found.lasts);
+    });
+    await this.look();
+  }
+
+  #keep(token: number, lasts: number): void {
+    this.token = token;
+    clearInterval(this.#renewing);
+    this.#renewing = window.setInterval(async () => {
+      try {
+        await ask("put", "/api/benches/{lab}/{bench}/lease", this.at, { session: MINE, token });
+      } catch (failure) {
+        if (failure instanceof Refused && failure.status === 0) return;
+        clearInterval(this.#renewing);
+        this.token = null;
+        told.failed(failure);
+      }
+      await this.look();
+    }, (lasts * 1000) / 3);
+  }
+
+  // the red button
+
+  /** Stop at once: arms brake, shutters close, grippers hold. Needs nobody's leave. */
+  async stop(): Promise<void> {
+    this.stopping = true;
+    await told.trying(async () => {
+      await ask("post", "/api/benches/{lab}/{bench}/calls/stop", this.at, { with: [] });
+      told.say("Stopped: arms brake, shutters close, grippers hold.");
+    });
+    this.stopping = false;
+  }
+
+  /** Stop safely, as Ctrl-C would: nothing more starts, and a part in the hand is set down. */
+  async halt(): Promise<void> {
+    await told.trying(() => ask("post", "/api/benches/{lab}/{bench}/calls/halt", this.at, { with: [] }));
+  }
+
+  /** Why one may not move this bench; null where one may. */
+  get barred(): string | null {
+    if (!this.name) return "no bench is chosen";
+    if (!session.may("operator", this.lab)) return "you may watch here; moving needs the role operator";
+    if (this.line === "lost") return "the line to the coordinator is lost";
+    if (this.edge === "away") return "the bench's edge is not connected";
+    const holder = this.lease?.holder;
+    if (holder && !holder.you) return `${holder.who} has the bench`;
+    return null;
+  }
+}
+
+export const bench = new Bench();

@@ -1,0 +1,136 @@
+/** The checkout at the coordinator where the page has its commands run: what the page says is what one would type. */
+
+import { filled, lines, Refused, type Diagnostic } from "../api/client";
+import type {
+  BenchEvent, Diagnostics, Diff, Log, Plan, Report, Revision, RunDocument, Said, Status,
+} from "../api/documents";
+import { bench } from "./bench.svelte";
+import { told } from "./told.svelte";
+
+/** One step of what is under way. */
+export interface Step { state: "waiting" | "going" | "done" | "failed" | "unknown"; fraction: number; phase: string }
+
+export interface Going {
+  words: string[];
+  plan: Plan | null;
+  events: BenchEvent[];
+  steps: Record<string, Step>;
+  report: Report | null;
+  exit: number | null;
+  diagnostics: Diagnostic[];
+}
+
+export interface Answer { said: Said[]; exit: number; diagnostics: Diagnostic[] }
+
+class Desk {
+  status = $state.raw<Status | null>(null);
+  plan = $state.raw<Plan | null>(null);
+  /** Of which words the plan is: `["plan", "e1"]`. */
+  planned = $state<string[]>([]);
+  log = $state.raw<Log | null>(null);
+  diff = $state.raw<Diff | null>(null);
+  runs = $state.raw<RunDocument[]>([]);
+  going = $state<Going | null>(null);
+  /** Commands that are under way. */
+  busy = $state<string[]>([]);
+
+  /** Run a command to its end, and return all that it said; `hears` gets each document when it comes. */
+  async run(words: string[], hears: (said: Said) => void = () => undefined): Promise<Answer> {
+    const [command = "", ...rest] = words;
+    const answer: Answer = { said: [], exit: 1, diagnostics: [] };
+    const shown = words.join(" ");
+    this.busy = [...this.busy, shown];
+    try {
+      const path = filled(`/api/labs/{lab}/desk/{command}`, { lab: bench.lab, command });
+      for await (const said of lines<Said>("post", path, { words: rest, session: bench.session })) {
+        if ("exit" in said && !("schema" in said)) answer.exit = (said as { exit: number }).exit;
+        else {
+          answer.said.push(said);
+          const found = (said as unknown as Diagnostics).diagnostics;
+          if (found) answer.diagnostics.push(...found);
+          hears(said);
+        }
+      }
+    } catch (failure) {
+      if (!(failure instanceof Refused)) throw failure;
+      answer.diagnostics.push(...failure.diagnostics);
+    } finally {
+      const at = this.busy.indexOf(shown);
+      this.busy = this.busy.filter((_, i) => i !== at);
+    }
+    return answer;
+  }
+
+  /** Run a command that says one document; tells what is wrong, and returns null where it says none. */
+  async read<T extends { schema: string }>(schema: T["schema"], ...words: string[]): Promise<T | null> {
+    const answer = await this.run(words);
+    const found = answer.said.find((one) => "schema" in one && one.schema === schema) as unknown as T | undefined;
+    if (!found) told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
+    return found ?? null;
+  }
+
+  async look(): Promise<void> {
+    this.status = (await this.read<Status>("pico.status/v1", "status")) ?? this.status;
+  }
+
+  async history(): Promise<void> {
+    this.log = (await this.read<Log>("pico.log/v1", "log", "--graph", "--all")) ?? this.log;
+  }
+
+  async recorded(): Promise<void> {
+    const found = await this.read<{ schema: "pico.runs/v1"; runs: { document: RunDocument }[] }>("pico.runs/v1", "runs");
+    if (found) this.runs = found.runs.map((one) => one.document);
+  }
+
+  async compare(from: string, to: string): Promise<void> {
+    this.diff = await this.read<Diff>("pico.diff/v1", "diff", from, to);
+  }
+
+  async show(revision: string): Promise<Revision | null> {
+    return this.read<Revision>("pico.revision/v1", "show", revision);
+  }
+
+  async think(words: string[]): Promise<void> {
+    this.planned = words;
+    const answer = await this.run(words);
+    const plan = answer.said.find((one) => "schema" in one && one.schema === "pico.plan/v1") as unknown as Plan | undefined;
+    this.plan = plan ?? null;
+    if (!plan) told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
+  }
+
+  /** Run what moves the bench, and follow it. */
+  async move(words: string[]): Promise<number> {
+    const going: Going = { words, plan: null, events: [], steps: {}, report: null, exit: null, diagnostics: [] };
+    this.going = going;
+    const live = this.going; // the proxy that is watched
+    const answer = await this.run(words, (said) => heard(live, said));
+    live.exit = answer.exit;
+    live.diagnostics = answer.diagnostics;
+    await Promise.all([this.look(), this.history(), this.recorded()]);
+    return answer.exit;
+  }
+}
+
+/** Take in one document of a command that moves the bench. */
+export function heard(going: Going, said: Said): void {
+  if (!("schema" in said)) return;
+  if (said.schema === "pico.plan/v1") {
+    going.plan = said as unknown as Plan;
+    for (const one of going.plan.operations) going.steps[one.id] = { state: "waiting", fraction: 0, phase: "" };
+  } else if (said.schema === "pico.report/v1") going.report = said as unknown as Report;
+  else if (said.schema === "pico.event/v1") {
+    const event = said as unknown as BenchEvent;
+    going.events.push(event);
+    const step = event.operation ? (going.steps[event.operation] ??= { state: "waiting", fraction: 0, phase: "" }) : null;
+    if (!step) return;
+    if (event.kind === "operation_started") step.state = "going";
+    else if (event.kind === "operation_progress") {
+      step.fraction = Number(event.data.fraction ?? 0);
+      step.phase = String(event.data.phase ?? "");
+    } else if (event.kind === "operation_done") Object.assign(step, { state: "done", fraction: 1, phase: "" });
+    else if (event.kind === "operation_failed") step.state = "failed";
+    else if (event.kind === "operation_unknown") step.state = "unknown";
+  }
+}
+
+export const desk = new Desk();

@@ -1,0 +1,49 @@
+/** How commands and values are written. */
+
+import type { Pose, Value } from "../api/documents";
+
+/** Words as one types them. */
+export function typed(words: string[]): string {
+  return ["pico", ...words].map((one) => (/^[\w@%+=:,./-]+$/.test(one) ? one : `'${one.replaceAll("'", `'\\''`)}'`)).join(" ");
+}
+
+const KEPT: Record<string, (rest: string[]) => string | null> = {
+  plan: ([rev]) => `print(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
+  apply: ([rev]) => `bench.apply(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
+  status: () => "print(bench.status())",
+};
+
+/** The same in Python, where a line of it does the same. */
+export function python(words: string[]): string | null {
+  const [command = "", ...rest] = words.filter((one) => one !== "--yes");
+  const said = KEPT[command]?.(rest.filter((one) => !one.startsWith("-")));
+  return said ? `import pico\n\nbench = pico.open(".")\n${said}` : null;
+}
+
+export function isPose(value: Value): value is Pose {
+  return typeof value === "object" && value !== null;
+}
+
+export function number(value: number, digits = 3): string {
+  return String(Number(value.toFixed(digits)));
+}
+
+/** A value as people read it: `(520, 420, 30°)`, `3 deg`, `storage/b2`. */
+export function shown(value: Value, unit = ""): string {
+  if (value === null || value === undefined) return "unknown";
+  if (isPose(value)) return `(${number(value.x, 2)}, ${number(value.y, 2)}, ${number(value.yaw, 2)}°)`;
+  if (typeof value === "number") return unit ? `${number(value)} ${unit}` : number(value);
+  return String(value);
+}
+
+/** How long: `8.0 s`, `1 min 12 s`. */
+export function seconds(value: number): string {
+  if (value < 60) return `${value < 10 ? value.toFixed(1) : Math.round(value)} s`;
+  const whole = Math.round(value);
+  return `${Math.floor(whole / 60)} min ${whole % 60} s`;
+}
+
+/** When, as this place has it: `26 Nov 09:03`. */
+export function when(iso: string): string {
+  return new Date(iso).toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
+}

@@ -1,0 +1,58 @@
+import { describe, expect, it } from "vitest";
+import { filled, split } from "../src/api/client";
+import { number, python, seconds, shown, typed } from "../src/stores/say";
+import { changed, type Scene } from "../src/twin/scene";
+import { difference } from "../src/twin/ruler";
+
+describe("words", () => {
+  it("are typed as a shell takes them", () => {
+    expect(typed(["plan", "e1"])).toBe("pico plan e1");
+    expect(typed(["commit", "-m", "it's there"])).toBe("pico commit -m 'it'\\''s there'");
+  });
+  it("have a line of Python where one does the same", () => {
+    expect(python(["plan", "e1"])).toContain('bench.plan("e1")');
+    expect(python(["apply", "--yes"])).toContain("bench.apply(bench.plan())");
+    expect(python(["log"])).toBeNull();
+  });
+  it("fill paths", () => {
+    expect(filled("/api/labs/{lab}/desk", { lab: "a b", since: 3 })).toBe("/api/labs/a%20b/desk?since=3");
+  });
+});
+
+describe("values", () => {
+  it("are read as people write them", () => {
+    expect(shown({ x: 520, y: 420, yaw: 30 })).toBe("(520, 420, 30°)");
+    expect(shown(0.02, "ms")).toBe("0.02 ms");
+    expect(shown(undefined)).toBe("unknown");
+    expect(number(1 / 3)).toBe("0.333");
+    expect([seconds(7.98), seconds(31.5), seconds(72)]).toEqual(["8.0 s", "32 s", "1 min 12 s"]);
+    expect(difference([0, 0, 0], [3, 4, 0]).whole).toBe(5);
+  });
+});
+
+describe("lines", () => {
+  it("are read also where they come in pieces", async () => {
+    const bytes = new TextEncoder().encode('{"a":"°"}\n\n{"b":2}');
+    const stream = new ReadableStream<Uint8Array>({
+      start(controller) {
+        for (const byte of bytes) controller.enqueue(Uint8Array.of(byte));
+        controller.close();
+      },
+    });
+    const found = [];
+    for await (const one of split(stream)) found.push(one);
+    expect(found).toEqual([{ a: "°" }, { b: 2 }]);
+  });
+});
+
+describe("the scene", () => {
+  const scene = { epoch: 1, rev: 0, components: [{ index: 0, name: "p2", state: "seen" }], beams: [] } as unknown as Scene;
+  it("takes in what changed of a component, and new ones", () => {
+    const held = changed(scene, { kind: "component", rev: 1, data: { index: 0, state: "held" } });
+    expect(held.components[0]).toMatchObject({ name: "p2", state: "held" });
+    expect(scene.components[0]!.state).toBe("seen");
+    expect(changed(held, { kind: "component", rev: 2, data: { index: 5, name: "unknown/9" } }).components).toHaveLength(2);
+    expect(changed(scene, { kind: "beams", rev: 3, data: { beams: [{}] } })).toMatchObject({ rev: 3, beams: [{}] });
+  });
+});
+
