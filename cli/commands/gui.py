@@ -35,10 +35,12 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
     from pico.attachment import own_folder
     from pico.manifest.load import find_lab, load_folder
     from pico.server.app import create_app
+    from pico.server.desk.desks import Desking
     from pico.server.running import listening, server
     from pico.server.store.books import books_in
 
     from ..runs.own_page import OwnPage, opened, required_free, served
+    from ..warm import WORDS
 
     session = Session.of(context)
     root = find_lab(session.folder)
@@ -58,7 +60,7 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
         try:
             url = f"http://127.0.0.1:{listener.getsockname()[1]}"
             page = OwnPage(lab, root, books, url, options)
-            asyncio.run(served(page, server(create_app(books)), listener, say))
+            asyncio.run(served(page, server(create_app(books, desks=Desking(WORDS, {lab: root}))), listener, say))
         finally:
             books.close()
     session.say("The page is closed.")

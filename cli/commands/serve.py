@@ -68,17 +68,20 @@ async def _serve(
     demo: str | None,
 ) -> None:  # fmt: skip
     from pico.server.app import create_app
+    from pico.server.desk.desks import Desking
     from pico.server.guard.addresses import LOOPBACK, is_loopback
     from pico.server.running import listening, server
     from pico.server.store.books import books_in
     from pico.server.store.first import first_code
+
+    from ..warm import WORDS
 
     secure = tls[0] is not None
     with listening(*at, tls=secure) as listener:
         books = books_in(folder)
         try:
             known = LOOPBACK | names | (frozenset() if is_loopback(at[0]) else {at[0]})
-            serving = server(create_app(books, known), *tls)
+            serving = server(create_app(books, known, desks=Desking(WORDS)), *tls)
             shown = min(names) if names and secure else "localhost" if is_loopback(at[0]) else at[0]
             bare = f"[{shown}]" if ":" in shown else shown
             url = f"{'https' if secure else 'http'}://{bare}:{listener.getsockname()[1]}"

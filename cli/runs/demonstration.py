@@ -49,6 +49,11 @@ class Demonstration:
             from pico.history.examples.example import make_example
 
             make_example(self._lab, self._root)
+        from pico.server.git.hosting import repository
+
+        bare = repository(self._books.folder, self._lab)
+        for what in ("--all", "--tags"):  # what desks are made of
+            subprocess.run(["git", "-C", self._root, "push", "--quiet", bare, what], check=False, capture_output=True)
 
     async def begin(self) -> Demonstrated:
         """Enrol the bench, if it is not yet, and connect its edge; raises PicoError."""

@@ -14,31 +14,38 @@ from starlette.exceptions import HTTPException
 
 import pico
 from pico.diagnostics import PicoError, error
+from pico.server.desk.desks import Desking
 from pico.server.guard.addresses import LOOPBACK
 from pico.server.guard.gatekeeper import Gatekeeper
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import document, failure
+from pico.server.inner import desking
 from pico.server.page.serving import page
 from pico.server.relay.relaying import relaying
-from pico.server.routes import calls, edge, events, labs, leases, link, people
+from pico.server.routes import calls, desk, edge, events, labs, leases, link, people
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
 
-ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, calls.router)
+ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, calls.router,
+           desk.router)  # fmt: skip
+NO_DESKS = Desking()
 TICK = 0.5
 """How often leases that are over are looked for [s]."""
 Part = Callable[[FastAPI], AbstractAsyncContextManager[None]]
 """What goes on as long as the app serves."""
 
 
-def create_app(books: Books, names: Collection[str] = LOOPBACK, *, parts: Collection[Part] = ()) -> FastAPI:
-    """Return the app over some books that answers to `names`; it does not close them."""
+def create_app(
+    books: Books, names: Collection[str] = LOOPBACK, *, parts: Collection[Part] = (), desks: Desking = NO_DESKS
+) -> FastAPI:
+    """Return the app over some books that answers to `names`; it does not close them. `desks`: how commands are run
+    here for those who have no checkout."""
 
     @asynccontextmanager
     async def lasting(app: FastAPI) -> AsyncIterator[None]:
         await books.do(books.leases.forget)
         async with AsyncExitStack() as stack:
-            for part in (_lapsing, relaying, *parts):
+            for part in (_lapsing, relaying, desking, *parts):
                 await stack.enter_async_context(part(app))
             yield
 
@@ -47,6 +54,7 @@ def create_app(books: Books, names: Collection[str] = LOOPBACK, *, parts: Collec
         openapi_url="/api/openapi.json",
     )  # fmt: skip
     app.state.books = books
+    app.state.desking = desks
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
     for router in ROUTERS:
         app.include_router(router)

@@ -39,17 +39,22 @@ def listening(host: str, port: int, *, tls: bool = False) -> socket.socket:
 def server(app: Any, certificate: Path | None = None, key: Path | None = None) -> uvicorn.Server:
     """Return what serves an app on sockets (`server.serve(sockets=[...])`) until SIGINT or SIGTERM; raises PicoError
     for a certificate or key that can't be used."""
-    config = uvicorn.Config(
-        app, log_level="warning", access_log=False, server_header=False, date_header=False, ws="websockets-sansio",
-        ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST, ws_per_message_deflate=False,
-        timeout_graceful_shutdown=3, ssl_certfile=certificate, ssl_keyfile=key, h11_max_incomplete_event_size=1 << 16,
-    )  # fmt: skip
+    config = configured(app, ssl_certfile=certificate, ssl_keyfile=key)
     try:
         config.load()
     except (OSError, ValueError) as exc:
         text = f"the certificate {certificate} can't be used: {exc}"
         raise PicoError(error("tls", text, hint="`--certificate` and `--key` name files in PEM form")) from exc
     return _Server(config)
+
+
+def configured(app: Any, **more: Any) -> uvicorn.Config:
+    """Return how an app is served."""
+    return uvicorn.Config(
+        app, log_level="warning", access_log=False, server_header=False, date_header=False, ws="websockets-sansio",
+        ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST, ws_per_message_deflate=False,
+        timeout_graceful_shutdown=3, h11_max_incomplete_event_size=1 << 16, **more,
+    )  # fmt: skip
 
 
 class _Server(uvicorn.Server):

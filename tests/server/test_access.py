@@ -47,7 +47,7 @@ def operations(app: Any) -> Iterator[tuple[str, str, str]]:
 
 def at(path: str, lab: str = "shel") -> str:
     """Return a path with something in place of each parameter."""
-    standing = {"lab": lab, "bench": "bench1", "name": "anna", "token": "abc", "sha256": "0" * 64}
+    standing = {"lab": lab, "bench": "bench1", "name": "anna", "token": "abc", "sha256": "0" * 64, "run": "abc"}
     for name, value in standing.items():
         path = path.replace(f"{{{name}}}", value)
     assert "{" not in path, f"say what stands for the parameters of {path}"

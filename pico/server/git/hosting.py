@@ -21,11 +21,13 @@ _SETTINGS = f"""
 [receive]
   denyNonFastForwards = true
   denyDeletes = true
+  denyCurrentBranch = updateInstead
   maxInputSize = {4 * LARGEST}
 [transfer]
   fsckObjects = true
 [core]
   hooksPath = /dev/null
+  symlinks = false
 [gc]
   auto = 0
 """
@@ -47,13 +49,13 @@ def repository(folder: Path, lab: str) -> Path:
 
 def git(*words: str) -> str:
     """Return what git prints; raises PicoError where it fails."""
-    done = subprocess.run(["git", *words], env=_environment(), capture_output=True, text=True, check=False)
+    done = subprocess.run(["git", *words], env=environment(), capture_output=True, text=True, check=False)
     if done.returncode:
         raise PicoError(error("git", f"git {words[0]} failed: {done.stderr.strip()[:500]}"))
     return done.stdout.strip()
 
 
-def _environment() -> dict[str, str]:
+def environment() -> dict[str, str]:
     """Return what git is started with: nobody's settings but the repository's own."""
     own = {"GIT_CONFIG_NOSYSTEM": "1", "GIT_CONFIG_GLOBAL": os.devnull, "GIT_TERMINAL_PROMPT": "0", "LC_ALL": "C"}
     return {"PATH": os.environ.get("PATH", os.defpath), "HOME": os.devnull, **own}
@@ -64,14 +66,14 @@ async def answered(
 ) -> tuple[int, dict[str, str], AsyncIterator[bytes]]:
     """Return status, headers and body of what git answers to a request, as CGI describes it, to the bare repository at
     `path`; git ends with the body."""
-    environment = _environment() | {
+    found = environment() | {
         "GIT_PROJECT_ROOT": str(path.parent), "GIT_HTTP_EXPORT_ALL": "1", "GATEWAY_INTERFACE": "CGI/1.1",
         "PATH_INFO": f"/{path.name}/{request['service']}", **{k: v for k, v in request.items() if k != "service"},
         **_own_branches(request["REMOTE_USER"]),
     }  # fmt: skip
     pipe = asyncio.subprocess.PIPE
     process = await asyncio.create_subprocess_exec(
-        "git", "http-backend", env=environment, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
+        "git", "http-backend", env=found, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
     )
     assert process.stdin is not None and process.stdout is not None
     feeding = asyncio.create_task(_feed(process.stdin, body))

@@ -17,6 +17,7 @@ STATUS: Mapping[str, int] = {
     "unknown-token": 404,
     "unknown-lab": 404,
     "unknown-data": 404,
+    "unknown-run": 404,
     "limit": 429,
     "too-long": 413,
     "away": 503,

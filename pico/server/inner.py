@@ -1,0 +1,60 @@
+"""The door by which commands of desks reach the coordinator: a port of 127.0.0.1, whatever the coordinator listens at
+for others, and where they know it by no certificate."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import AsyncIterator, Iterator
+from contextlib import asynccontextmanager, contextmanager, suppress
+from pathlib import Path
+from socket import socket
+
+import uvicorn
+from fastapi import FastAPI
+
+from pico.diagnostics import PicoError
+from pico.disk import write_whole
+from pico.server.desk.desks import Desking, Desks
+from pico.server.running import configured, listening
+from pico.server.store.books import Books
+
+
+@asynccontextmanager
+async def desking(app: FastAPI) -> AsyncIterator[None]:
+    """Have desks, where an app is to have them."""
+    books: Books = app.state.books
+    wanted: Desking = app.state.desking
+    if not wanted.warm:
+        app.state.desks = Desks(books, wanted, "")
+        yield
+        return
+    with _listening(books.folder / "desks") as door:
+        serving = _Inner(configured(app, lifespan="off"))
+        task = asyncio.create_task(serving.serve(sockets=[door]))
+        desks = app.state.desks = Desks(books, wanted, f"http://127.0.0.1:{door.getsockname()[1]}")
+        warming = asyncio.create_task(desks.warm())
+        try:
+            yield
+        finally:
+            warming.cancel()
+            await asyncio.wait([warming])
+            await desks.close()
+            serving.should_exit = True
+            await asyncio.wait([task])
+
+
+class _Inner(uvicorn.Server):
+    @contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Leave signals to the server that this one belongs to."""
+        yield
+
+
+def _listening(folder: Path) -> socket:
+    """Return a socket at the port of last time where that is free: what commands keep of a bench goes by that."""
+    path = folder / "port"
+    with suppress(OSError, ValueError, PicoError):
+        return listening("127.0.0.1", int(path.read_text()))
+    found = listening("127.0.0.1", 0)
+    write_whole(path, str(found.getsockname()[1]).encode(), folders=True)
+    return found
