@@ -60,7 +60,7 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
         try:
             url = f"http://127.0.0.1:{listener.getsockname()[1]}"
             page = OwnPage(lab, root, books, url, options)
-            asyncio.run(served(page, server(create_app(books, desks=Desking(WORDS, {lab: root}))), listener, say))
+            asyncio.run(served(page, server(create_app(books, desks=Desking(WORDS, {lab: root}, url))), listener, say))
         finally:
             books.close()
     session.say("The page is closed.")

@@ -24,14 +24,8 @@ async def desking(app: FastAPI) -> AsyncIterator[None]:
     """Have desks, where an app is to have them."""
     books: Books = app.state.books
     wanted: Desking = app.state.desking
-    if not wanted.warm:
-        app.state.desks = Desks(books, wanted, "")
-        yield
-        return
-    with _listening(books.folder / "desks") as door:
-        serving = _Inner(configured(app, lifespan="off"))
-        task = asyncio.create_task(serving.serve(sockets=[door]))
-        desks = app.state.desks = Desks(books, wanted, f"http://127.0.0.1:{door.getsockname()[1]}")
+    async with _door(app, wanted) as url:
+        desks = app.state.desks = Desks(books, wanted, url)
         warming = asyncio.create_task(desks.warm())
         try:
             yield
@@ -39,6 +33,20 @@ async def desking(app: FastAPI) -> AsyncIterator[None]:
             warming.cancel()
             await asyncio.wait([warming])
             await desks.close()
+
+
+@asynccontextmanager
+async def _door(app: FastAPI, wanted: Desking) -> AsyncIterator[str]:
+    """Yield where commands reach an app."""
+    if wanted.url or not wanted.warm:
+        yield wanted.url
+        return
+    with _listening(app.state.books.folder / "desks") as door:
+        serving = _Inner(configured(app, lifespan="off"))
+        task = asyncio.create_task(serving.serve(sockets=[door]))
+        try:
+            yield f"http://127.0.0.1:{door.getsockname()[1]}"
+        finally:
             serving.should_exit = True
             await asyncio.wait([task])
 

@@ -37,10 +37,12 @@ AGAIN = 300.0
 @dataclass(frozen=True)
 class Desking:
     """How there are desks: `warm` are the words that start the process which runs commands, none where there are no
-    desks; `local`: the folders of labs whose desk is that folder itself, for the person at this machine."""
+    desks; `local`: the folders of labs whose desk is that folder itself, for the person at this machine; `url`: where
+    commands reach the coordinator, a door of their own where it is empty."""
 
     warm: tuple[str, ...] = ()
     local: Mapping[str, Path] = field(default_factory=dict)
+    url: str = ""
 
 
 @dataclass(frozen=True)

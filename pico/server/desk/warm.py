@@ -78,7 +78,12 @@ class Warm:
                 env={"PATH": os.environ.get("PATH", os.defpath), "HOME": os.devnull, "OPENBLAS_NUM_THREADS": "1"},
             )  # fmt: skip
             assert process.stdout is not None
-            if not await process.stdout.readline():
+            try:
+                ready = await process.stdout.readline()
+            except BaseException:
+                process.kill()
+                raise
+            if not ready:
                 await process.wait()
                 raise PicoError(error("internal", "what runs the commands of desks could not be started"))
             self._process, self._reading = process, asyncio.create_task(self._read(process))
