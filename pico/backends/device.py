@@ -19,6 +19,7 @@ from pico.model.trace.event import Event
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
+    from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
 
 Began = Callable[[ObservedComponent | None], None]
@@ -51,6 +52,16 @@ class Commissioned(Protocol):
 
     async def basis(self) -> Basis:
         """Return what a report of it would be of now; raises PicoError for what does not answer."""
+        ...
+
+
+@runtime_checkable
+class Shown(Protocol):
+    """A device that knows where everything is while it moves, for who draws the bench."""
+
+    async def moment(self) -> Moment:
+        """Return the bench as it is now, as far as that is known without looking. Moves, lights and waits for
+        nothing."""
         ...
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.attachment import bench_folder, require_attached
-from pico.backends.device import Capabilities, Device
+from pico.backends.device import Capabilities, Device, Shown
 from pico.backends.devices import opener
 from pico.backends.world import World
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -48,6 +48,7 @@ if TYPE_CHECKING:
     from pico.model.trace.unattended import Left, Terms
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
+    from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
 
 SHUT_WITHIN = 150
@@ -94,6 +95,8 @@ class LocalEdge:
         self._obeying: asyncio.Task[None] | None = None
         self._alone: Alone | None = None
         self._remembers = Remembering(root, clock)
+        self._listeners: list[Callable[[Event], None]] = []
+        self._seen: Observation | None = None
 
     async def describe(self) -> Capabilities:
         """Return what the device can do, at the speed of the run that goes on."""
@@ -171,7 +174,21 @@ class LocalEdge:
     async def observe(self) -> Observation:
         """Look, and return what was seen; raises PicoError where nothing can be seen."""
         self._require_kept()
-        return await self._with_licences(self._with_hands(await self.device.observe()))
+        self._seen = await self._with_licences(self._with_hands(await self.device.observe()))
+        return self._seen
+
+    async def moment(self) -> Moment:
+        """Return the bench as it is now, as far as that is known without looking; raises PicoError."""
+        from pico.twin.moment import moment_of
+
+        if isinstance(self.device, Shown):
+            return await self.device.moment()
+        return moment_of(self._seen or Observation(backend=(await self.describe()).name))
+
+    def listen(self, listener: Callable[[Event], None]) -> Callable[[], None]:
+        """Have somebody told from now on what happens in runs; return what ends that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
 
     async def look(self) -> Look:
         """Look through the cameras and return what they see; raises PicoError where there are none."""
@@ -623,6 +640,8 @@ class LocalEdge:
                 self._remembers.end(running.id, event.data["outcome"], tally)
         finally:  # a journal that is gone must not hide what became of the run
             running.tell(event)
+            for listener in tuple(self._listeners):
+                listener(event)
 
     async def _reported(self, job: Job, running: Running, wall: float) -> RunReport:
         """Look at the bench after a run, write down how it stands, and return what became of the run.

@@ -20,14 +20,15 @@ from pico.server.guard.gatekeeper import Gatekeeper
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import document, failure
 from pico.server.inner import desking
+from pico.server.live.watching import watching
 from pico.server.page.serving import page
 from pico.server.relay.relaying import relaying
-from pico.server.routes import calls, desk, edge, events, labs, leases, link, people
+from pico.server.routes import calls, desk, edge, events, labs, leases, link, live, people
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
 
-ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, calls.router,
-           desk.router)  # fmt: skip
+ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, live.router,
+           calls.router, desk.router)  # fmt: skip
 NO_DESKS = Desking()
 TICK = 0.5
 """How often leases that are over are looked for [s]."""
@@ -45,7 +46,7 @@ def create_app(
     async def lasting(app: FastAPI) -> AsyncIterator[None]:
         await books.do(books.leases.forget)
         async with AsyncExitStack() as stack:
-            for part in (_lapsing, relaying, desking, *parts):
+            for part in (_lapsing, relaying, watching, desking, *parts):
                 await stack.enter_async_context(part(app))
             yield
 

@@ -161,7 +161,7 @@ def _add_shape(spec: Any, body: Any, name: str, shape: Body, mass: float) -> Non
     geom = body.add_geom(
         name=name,
         pos=[v / 1000 for v in shape.at],
-        quat=list(_orientation(shape)),
+        quat=list(orientation(shape)),
         mass=mass,
         rgba=list(shape.color),
         group=OPAQUE_GROUP if shape.color[3] >= 1.0 else CLEAR_GROUP,
@@ -179,8 +179,9 @@ def _add_shape(spec: Any, body: Any, name: str, shape: Body, mass: float) -> Non
         geom.size = [shape.size[0] / 2000, shape.size[1] / 2000, 0]
 
 
-def _orientation(shape: Body) -> tuple[float, float, float, float]:
-    """The quaternion of a shape in its component's frame: a cylinder's own z turned onto its axis, then its yaw."""
+def orientation(shape: Body) -> tuple[float, float, float, float]:
+    """Return the quaternion (w, x, y, z) of a shape in its component's frame: a cylinder's own z turned onto its axis,
+    then its yaw."""
     half, c = math.radians(shape.yaw) / 2, math.sqrt(0.5)
     w, z = math.cos(half), math.sin(half)
     if shape.shape == "box" or shape.axis == "z":

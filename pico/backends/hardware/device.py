@@ -19,6 +19,7 @@ from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.report import read
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.settings import Settings
+from pico.backends.hardware.showing import Shown
 from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
@@ -41,6 +42,7 @@ from pico.vision.frame import TRIES, Frame
 if TYPE_CHECKING:
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
+    from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
     from pico.vision.frame import Region
 
@@ -64,6 +66,7 @@ class HardwareDevice:
         self._motion, self._settings = DeferredMotion(setup), Settings(root, links.bench)
         self._session: HardwareSession | None = None
         self._placed: dict[str, LastSeen] = {}
+        self._shown = Shown(setup, root, links.bench)
         self._before: tuple[tuple[Observation, str | None], list[Frame], Look] | None = None
         self._kinds = {n: said.kind for n, said in (setup.wiring.safety_inputs if setup.wiring else {}).items()}
 
@@ -105,6 +108,11 @@ class HardwareDevice:
 
         return require_trusted((await self.look()).observation)
 
+    async def moment(self) -> Moment:
+        """Return the bench as it is known without looking, arms as they report themselves where the links are open."""
+        carried = self._session.carried() if self._session is not None else {}
+        return await self._shown.moment(self.links.now(), self.links.connected, self.arms(), carried)
+
     async def look(self) -> Look:
         """Look through the cameras over the table, with the lamps of the room on for it."""
         bench = await self.links.instruments()
@@ -127,7 +135,9 @@ class HardwareDevice:
     async def _looked(self, bench: Instruments) -> Look:
         frames = [await self._frame(bench, name) for name in sorted(bench.cameras)]
         known = await self._felt(bench, recall_hands(self.root, self.bench))
-        return await asyncio.to_thread(self._seen, frames, known)
+        found = await asyncio.to_thread(self._seen, frames, known)
+        self._shown.looked(found.observation)
+        return found
 
     def _seen(self, frames: list[Frame], known: Observation) -> Look:
         """What frames show; those that are the same to the last pixel show the same."""
@@ -240,6 +250,7 @@ class HardwareDevice:
         """Execute one operation and return when it has ended."""
         assert self._session is not None  # only who has taken the device executes
         result = await self._session.execute(operation, key, began)
+        self._shown.became(operation.component, result.after)
         if result.outcome == "done" and operation.kind.carries:
             self._placed[operation.component] = placed_at(self.setup, operation, result)
             remember(self.root, {**recall(self.root, self.bench), **self._placed}, self.bench)

@@ -86,6 +86,11 @@ class Links:
         found = ((entry.of or name, driver(entry.driver)) for name, entry in self.entries.items())
         return frozenset(of for of, about in found if about.kind == "arm" and about.maturity != "on device")
 
+    @property
+    def connected(self) -> Instruments | None:
+        """The instruments where they are connected, None where nobody has asked any yet."""
+        return self._instruments
+
     async def instruments(self) -> Instruments:
         """Return the instruments, connected; raises PicoError for all that does not answer, or is another one."""
         async with self._connecting:

@@ -131,6 +131,10 @@ class HardwareSession:
             await self._halt_all()
             raise
 
+    def carried(self) -> dict[str, str]:
+        """Return what arms that are on their way carry, by robot."""
+        return {robot: way.part for robot, way in self._ways.items() if way.carries}
+
     async def idle(self) -> None:
         """Wait until nothing is under way."""
         while self._under_way:

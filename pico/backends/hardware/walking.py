@@ -55,7 +55,7 @@ class Way:
         self._setup, self._operation, self._path = setup, operation, path
         self._arm, self._gripper, self._built, self._asked, self._slow = arm, gripper, built, asked, slow
         self.stage = Stage(path.segments[0].name)
-        self._part = path.component or operation.component
+        self.part = path.component or operation.component
         self.carries = not any(segment.name == "grip" for segment in path.segments) and path.component is not None
 
     async def walk(self) -> None:
@@ -100,7 +100,7 @@ class Way:
 
     async def _load(self, leg: SegmentName) -> None:
         """Let the arm reckon with what its hand holds now, which hangs from its tool."""
-        robot, geometry = self._setup.lab.robots[self._path.robot], self._setup.type_of(self._part).geometry
+        robot, geometry = self._setup.lab.robots[self._path.robot], self._setup.type_of(self.part).geometry
         below = robot.gripper.tool + grasp_height(robot, geometry) - geometry.height / 2
         try:
             await self._arm.carry(geometry.mass if self.carries else 0.0, (0.0, 0.0, below))
@@ -117,13 +117,13 @@ class Way:
     async def _grip(self) -> None:
         """Close on the part; raises Failed where nothing of its width is between the fingers."""
         self.carries = True
-        grasp = self._setup.type_of(self._part).geometry.grasp
+        grasp = self._setup.type_of(self.part).geometry.grasp
         if self._gripper is None or grasp is None:
             return
         found = await self._gripper.move_to(max(0.0, grasp.width - SQUEEZE))
         if not grasp.fits(found.width) or found.holds is False:
             self.carries = False
-            robot, name = self._path.robot, self._part
+            robot, name = self._path.robot, self.part
             text = (
                 f"{robot} missed {name}: its fingers closed to {found.width:.1f} mm, and the part is {grasp.width:g} mm"
             )
@@ -131,10 +131,10 @@ class Way:
 
     async def _require_held(self) -> None:
         """Raise Failed where the part is between the fingers no more."""
-        grasp = self._setup.type_of(self._part).geometry.grasp
+        grasp = self._setup.type_of(self.part).geometry.grasp
         if self._gripper is None or grasp is None:
             return
         found = await self._gripper.grip()
         if not grasp.fits(found.width):  # whether it presses on something a hand forgets that had no power
             self.carries = False
-            raise Failed(checks.dropped(self._path.robot, self._part))
+            raise Failed(checks.dropped(self._path.robot, self.part))

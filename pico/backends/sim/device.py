@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
     from pico.backends.sim.table import SimulatedTable
     from pico.backends.sim.world import World
     from pico.backends.world import Held
+    from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
 
 PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
@@ -72,6 +74,7 @@ class SimDevice:
         self._look: Callable[[Snapshot], None] | None = None
         self._looked: tuple[tuple[World, str | None], Look] | None = None
         self._placed: dict[str, LastSeen] = {}
+        self._stored: tuple[tuple[int, ...], World] | None = None
 
     # looking
 
@@ -111,6 +114,26 @@ class SimDevice:
     async def look(self) -> Look:
         """Return what the cameras see of the table, whatever the lab says; raises PicoError where there are none."""
         return self._by_sight()
+
+    async def moment(self) -> Moment:
+        """Return where everything is now; raises PicoError where the table's file can't be read."""
+        from pico.backends.sim.bodies import body_placement
+        from pico.twin.moment import Moment
+
+        world = self._session.world() if self._session is not None else self._as_stored()
+        placed = {name: body_placement(self.setup, world, name) for name in world.components}
+        places = {name: place for name, place in placed.items() if place is not None}
+        return Moment(observe(world, "sim", ""), places, world.openings)
+
+    def _as_stored(self) -> World:
+        """Return the table as it is stored, read again only once its file is another one."""
+        now: tuple[int, ...] = ()
+        with suppress(OSError):
+            found = world_path(self.root).stat()
+            now = (found.st_ino, found.st_mtime_ns, found.st_size)
+        if self._stored is None or self._stored[0] != now:
+            self._stored = now, load_world(self.setup, self.root)[0]
+        return self._stored[1]
 
     def _world(self) -> World:
         if self._session is not None:

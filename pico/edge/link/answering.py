@@ -11,6 +11,7 @@ from pico.content.store import store_of
 from pico.diagnostics import PicoError, error
 from pico.edge.link import wire
 from pico.edge.link.pictures import Arrays, look_as_json, packed
+from pico.edge.live.following import follow
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Lease
 from pico.model.record import as_json
@@ -43,7 +44,8 @@ class Answering:
         """Yield the documents that answer a call; what it takes is added to `taken`."""
         try:
             if name in wire.STREAMS:
-                async for item in self.edge.events(*arguments):
+                stream = follow(self.edge) if name == "live" else self.edge.events(*arguments)
+                async for item in stream:
                     yield {"next": as_json(item)}
                 yield {"value": None}
                 return

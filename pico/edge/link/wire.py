@@ -57,6 +57,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "open": ((Job, str), Lease),
     "finish": ((str, RunOutcome), RunReport),
     "events": ((str, int), Event),
+    "live": ((), dict[str, Any]),
     "report": ((str,), RunReport),
     "film": ((str,), list[Snapshot]),
     "jog": ((str, Frame), Answer),
@@ -90,7 +91,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "world.faults": ((list[str],), dict[str, Any]),
 }
 """Every call that there is: the types of its arguments, and of its value or of each `next` one."""
-STREAMS = frozenset({"events"})
+STREAMS = frozenset({"events", "live"})
 TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "hold", "resolve"}) | (
     {call for call in CALLS if call.startswith("world.")}
     - {"world.placements", "world.true_cameras", "world.true_arms"}

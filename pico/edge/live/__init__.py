@@ -1,0 +1,1 @@
+"""How an edge tells where everything is, for who draws its bench."""
