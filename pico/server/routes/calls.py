@@ -22,7 +22,7 @@ from pico.server.routes.people import Body
 router = routed()
 AT = "/benches/{lab}/{bench}/calls"
 LIVING = frozenset({"acquire", "open", "hold", "live"})
-"""Calls of which what they took is given back with the socket they came over, and one that never ends: without route."""
+"""Calls of which what they took is given back with the socket they came over, and one that never ends: no routes."""
 
 
 class Asked(Body):
