@@ -62,6 +62,9 @@ Mainline = Annotated[
 NoCommit = Annotated[bool, typer.Option("--no-commit", help="Write the manifests, and leave the commit to you.")]
 Speed = Annotated[float | None, typer.Option("--speed", metavar="SHARE", help="Share of the joint limits, up to 1.")]
 DryRun = Annotated[bool, typer.Option("--dry-run", help="Show the plan of it and move nothing.")]
+Manifest = Annotated[
+    bool, typer.Option("--manifest", help="Write it into the manifest, checked as a move is; the bench stays.")
+]
 Pairs = Annotated[list[str] | None, typer.Argument(metavar="KEY=VALUE...", help="What is asked of it.")]
 LockTimeout = Annotated[
     float | None,

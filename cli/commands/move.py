@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Speed, Yes, pairs
-from ..runs.approving import single
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Manifest, Speed, Yes, pairs
+from ..runs.approving import single, written
 from ..session import Session
 
 Where = Annotated[
@@ -19,12 +19,13 @@ SETTINGS = {"ignore_unknown_options": True}
 
 def move(
     context: typer.Context, component: Component, arguments: Where = None, speed: Speed = None, dry_run: DryRun = False,
-    fidelity: Fidelity = None, auto_approve: Yes = False, lock_timeout: LockTimeout = None,
+    manifest: Manifest = False, fidelity: Fidelity = None, auto_approve: Yes = False, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
     """Move a component: to a pose, by an angle, to a slot, home.
 
     What is not named of x, y and yaw stays; `turn` counts from where it stands, `distance` from the optical plane of
-    the other one, the way that one faces. The manifest stays as it is.
+    the other one, the way that one faces. The manifest stays as it is; with --manifest it alone changes, and what is
+    not named stays as it is there.
 
     Examples:
       pico move p2 x=500 y=420 yaw=30
@@ -34,4 +35,6 @@ def move(
       pico move ly_150 after=p2 distance=150
     """
     given = pairs(arguments, ("x", "y", "yaw"))
+    if manifest:
+        return written(Session.of(context), component, "move", given, ("pose",), dry_run)
     return single(Session.of(context), component, "move", given, speed, dry_run, fidelity, auto_approve)

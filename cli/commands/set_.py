@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import DryRun, Fidelity, LockTimeout, Yes, value_of
-from ..runs.approving import single
+from ..arguments import DryRun, Fidelity, LockTimeout, Manifest, Yes, value_of
+from ..runs.approving import single, written
 from ..session import Session
 
 Values = Annotated[list[str] | None, typer.Argument(metavar="VALUE|TUNABLE=VALUE", help="To what.")]
@@ -19,6 +19,7 @@ def set_(
     component: Annotated[str, typer.Argument(metavar="COMPONENT[.TUNABLE]", help="What is to be set.")],
     arguments: Values = None,
     dry_run: DryRun = False,
+    manifest: Manifest = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
@@ -29,6 +30,9 @@ def set_(
       pico set p1.angle 3
       pico set p1 angle=3
       pico set cam exposure="2 ms"
+      pico set p1 angle=3 --manifest
     """
     name, given = value_of(component, arguments or [])
+    if manifest:
+        return written(Session.of(context), name, "set", given, tuple(given), dry_run)
     return single(Session.of(context), name, "set", given, None, dry_run, fidelity, auto_approve)

@@ -11,6 +11,7 @@ from pico.policy.consent import asked_about, lights
 
 from ..session import Session
 from ..terminal.waiting import waiting
+from ..views import capture as capture_view
 from ..views import left as left_view
 from ..views import plan as plan_view
 from ..views import report as report_view
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from pico.model.setup import Setup
     from pico.model.trace.report import RunReport
 
+AXES = ("x", "y", "yaw")
 FEW = 3
 """So many components are named."""
 
@@ -88,6 +90,27 @@ def single(
         return code
     after = _too(component, sorted({c.component for c in off} - {component}))
     return declined(session, bench, plan, auto_approve) or execute(session, bench, plan, after=after)
+
+
+def written(
+    session: Session,
+    component: str,
+    primitive: str,
+    arguments: dict[str, str],
+    tunables: tuple[str, ...],
+    dry_run: bool,
+) -> int:
+    """Write what one operation would lead to into the manifest, where it can be; the bench stays."""
+    bench = session.bench(writing=not dry_run)
+    stands = bench.folder.state.components.get(component)
+    if arguments.keys() & set(AXES) and stands is not None and stands.pose is not None:
+        arguments = {axis: str(getattr(stands.pose, axis)) for axis in AXES} | arguments  # what is not named stays
+    plan = bench.plans.single(component, primitive, arguments)
+    if plan.errored:
+        return show(session, bench, plan, True, single=True)
+    only = [f"{component}.{tunable}" for tunable in tunables]
+    session.show(capture_view, bench.commits.wanted(plan, *only, write=not dry_run))
+    return ExitCode.DONE
 
 
 def measured(session: Session, bench: Bench, plan: Plan, auto_approve: bool, dry_run: bool) -> RunReport | int:

@@ -8,7 +8,7 @@ from itertools import chain, islice
 from typing import TYPE_CHECKING, Any
 
 from pico.history.git.commit import Commit
-from pico.history.git.lanes import RailRow, lanes
+from pico.history.git.lanes import RailRow, lanes, places
 from pico.history.lab.folder import CommitEntry
 from pico.history.messages.default import default_message
 from pico.history.messages.trailers import meta, without_trailers
@@ -192,10 +192,11 @@ def ended(*runs: Run) -> str:
 
 def data(log: Log, *, graph: bool, oneline: bool, head: str | None = None) -> dict[str, Any]:
     """Return schema `pico.log/v1`: `head`, and `commits`: id, parents, refs, author, time, message, changes, evidence,
-    verdict, runs, meta, rail."""
+    verdict, runs, meta; with `graph` also rail, and as numbers the lane with the links to the row below."""
     commits = list(log.commits())
     rails = {r.commit.id: r.rail for r in lanes(commits) if r.commit} if graph else {}
-    shown = [entry_data(log.entry(c)) | ({"rail": rails[c.id]} if graph else {}) for c in commits]
+    drawn = {name: as_json(place) | {"rail": rails[name]} for name, place in places(commits).items()} if graph else {}
+    shown = [entry_data(log.entry(c)) | drawn.get(c.id, {}) for c in commits]
     return {"schema": "pico.log/v1", "head": head, "commits": shown}
 
 

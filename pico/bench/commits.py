@@ -30,7 +30,8 @@ from pico.model.address import Named, holds, read_addresses
 from pico.model.comparing.status import refuse_unapplied
 from pico.model.diff import Change, as_trimmed, diff_states
 from pico.model.observation import Observation, live_state
-from pico.model.state import LabState, home_state, references_of
+from pico.model.plan import Plan
+from pico.model.state import LabState, home_state, references_of, state_from_json
 from pico.model.trace.report import Captured, Committed
 from pico.model.trace.run import GoalStood
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
@@ -59,6 +60,12 @@ class Commits:
             _refuse_in_hand(seen, named)
         kept = _kept(self.folder, seen, named)
         return replace(self.folder.capture(self._live(seen, named), named, write=write), by_light=kept or None)
+
+    def wanted(self, plan: Plan, *only: str, write: bool = True) -> Captured:
+        """Write what a plan leads to of `only` these tunables into the manifest, beyond tolerance; the bench stays.
+        Without `write`, say what would be written. Raises PicoError."""
+        goal = state_from_json(self.folder.setup.lab.name, plan.target.state)
+        return self.folder.capture(goal, read_addresses(self.folder.setup, only), write=write)
 
     def _seen(self) -> tuple[Observation, PicoError | None]:
         """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it

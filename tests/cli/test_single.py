@@ -43,6 +43,22 @@ def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) ->
     assert pico("plan", "--detailed-exitcode").code == 0
 
 
+def test_what_is_wanted_is_written_into_the_manifest_as_the_least_change(shel: Path, pico: Pico) -> None:
+    table = shel / "state/table.yaml"
+    before = table.read_text()
+    assert pico("set", "p1", "angle=5", "--manifest", "--dry-run").code == 0 and table.read_text() == before
+    assert pico("set", "p1.angle", "5", "--manifest").code == 0
+    assert table.read_text() == before.replace("angle: 90", "angle: 5", 1)
+    said = pico("move", "p2", "x=540", "--manifest", "--json").data
+    assert (said["schema"], [c["text"] for c in said["changes"]]) == ("pico.capture/v1", ["moved 20 mm (dx +20)"])
+    after = table.read_text()
+    assert after == before.replace("angle: 90", "angle: 5", 1).replace("x: 520", "x: 540")
+    answer = pico("move", "p2", "x=2000", "--manifest")
+    assert (answer.code, "stick out" in answer.err, table.read_text()) == (3, True, after)
+    assert pico("set", "p1", "angle=1e9", "--manifest").code == 1 and table.read_text() == after
+    assert pico("get", "p2.pose", "--json").data["values"]["pose"]["value"]["x"] != 540
+
+
 def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico) -> None:
     pico("set", "p1", "angle=5", "-y")
     answer = pico("set", "p1", "angle=5", "-y")

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pico.history.git.commit import Commit
-from pico.history.git.lanes import lanes, topological
+from pico.history.git.lanes import lanes, places, topological
 
 
 def commits(text: str) -> list[Commit]:
@@ -73,3 +73,28 @@ def test_every_commit_has_one_row_with_one_star(history: list[Commit]) -> None:
     assert [r.commit for r in rows if r.commit] == ordered
     assert all(r.rail.count("*") == (r.commit is not None) for r in rows)
     assert len({len(r.rail) for r in rows}) == 1
+
+
+@given(histories())
+def test_the_links_of_a_commit_lead_to_its_parents(history: list[Commit]) -> None:
+    ordered = topological(history)
+    found = places(ordered)
+    for at, commit in enumerate(ordered):
+        met, lanes_now = set[str](), {found[commit.id].lane}
+        for here, below in zip(ordered[at:], ordered[at + 1 :], strict=False):
+            lanes_now = {to for start, to in found[here.id].links if start in lanes_now}
+            if found[below.id].lane in lanes_now and below.id in commit.parents:
+                met.add(below.id)
+                lanes_now -= {found[below.id].lane}
+        assert met == set(commit.parents)
+    assert all(len(set(found[c.id].links)) == len(found[c.id].links) for c in ordered)
+
+
+def test_lanes_as_numbers_join_where_a_branch_began() -> None:
+    found = places(commits("y:b x:b b:a a"))
+    assert [(found[n].lane, found[n].links) for n in "yxba"] == [
+        (0, ((0, 0),)),
+        (1, ((0, 0), (1, 0))),
+        (0, ((0, 0),)),
+        (0, ()),
+    ]

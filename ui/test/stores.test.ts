@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { filled, split } from "../src/api/client";
 import { number, python, seconds, shown, typed } from "../src/stores/say";
-import { changed, type Scene } from "../src/twin/scene";
+import { edited, wrong } from "../src/stores/editing";
+import { changed, type Scene, type Tunable } from "../src/twin/scene";
 import { difference } from "../src/twin/ruler";
 
 describe("words", () => {
@@ -56,3 +57,15 @@ describe("the scene", () => {
   });
 });
 
+
+describe("fields", () => {
+  const kind = { datatype: "float", unit: "ms", range: [0.02, 1000], choices: [] } as unknown as Tunable;
+  it("are looked at as they are typed", () => {
+    expect([wrong("10", kind), wrong("0,5", kind), wrong("", kind), wrong("x", undefined)]).toEqual([null, null, "a number is wanted", "a number is wanted"]);
+    expect(wrong("2000", kind)).toBe("2000 is beyond 0.02 to 1000 ms");
+  });
+  it("become the command that writes them", () => {
+    expect(edited("cam", "exposure", { value: " 0,5" })).toEqual(["set", "cam", "exposure=0.5", "--manifest"]);
+    expect(edited("p2", "pose", { x: "1", y: "2", yaw: "3" })).toEqual(["move", "p2", "x=1", "y=2", "yaw=3", "--manifest"]);
+  });
+});

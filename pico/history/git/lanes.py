@@ -1,4 +1,4 @@
-"""The commit rail of `pico log --graph`: which line of history each commit stands on, as text."""
+"""The commit rail of `pico log --graph`: which line of history each commit stands on, as text or as numbers."""
 
 from __future__ import annotations
 
@@ -14,6 +14,15 @@ class RailRow:
 
     rail: str
     commit: Commit | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a commit is drawn: the `lane` it stands on, from the left, and the `links` from its row to the next one
+    below, from lane to lane."""
+
+    lane: int
+    links: tuple[tuple[int, int], ...]
 
 
 def topological(commits: Sequence[Commit]) -> list[Commit]:
@@ -38,6 +47,26 @@ def topological(commits: Sequence[Commit]) -> list[Commit]:
                 if not children[parent]:
                     ready.append(known[parent])
     return ordered
+
+
+def places(commits: Iterable[Commit]) -> dict[str, Place]:
+    """Return where each commit is drawn, children before parents; parents that are not among them end their line."""
+    shown = list(commits)
+    known = {c.id for c in shown}
+    expected: list[str] = []  # the commit that each lane waits for
+    found = {}
+    for commit in shown:
+        if commit.id not in expected:
+            expected.append(commit.id)
+        lane, below, links = expected.index(commit.id), list[str](), list[tuple[int, int]]()
+        for at, awaited in enumerate(expected):
+            for follows in (p for p in commit.parents if p in known) if at == lane else (awaited,):
+                if follows not in below:
+                    below.append(follows)
+                links.append((at, below.index(follows)))
+        found[commit.id] = Place(lane, tuple(links))
+        expected = below
+    return found
 
 
 def lanes(commits: Iterable[Commit]) -> list[RailRow]:

@@ -31,6 +31,8 @@ class Desk {
   diff = $state.raw<Diff | null>(null);
   runs = $state.raw<RunDocument[]>([]);
   going = $state<Going | null>(null);
+  /** The lines that were last written into the manifest. */
+  patch = $state("");
   /** Commands that are under way. */
   busy = $state<string[]>([]);
 
@@ -96,6 +98,25 @@ class Desk {
     const plan = answer.said.find((one) => "schema" in one && one.schema === "pico.plan/v1") as unknown as Plan | undefined;
     this.plan = plan ?? null;
     if (!plan) told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
+  }
+
+  /** Write into the manifest; returns whether that was done. */
+  async wrote(words: string[]): Promise<boolean> {
+    const found = await this.read<{ schema: "pico.capture/v1"; changes: unknown[]; patch: string }>("pico.capture/v1", ...words);
+    if (!found) return false;
+    if (!found.changes.length) told.say("The manifest says so already, within the tolerance.");
+    this.patch = found.patch;
+    await this.look();
+    return true;
+  }
+
+  /** Run what changes files or history; returns whether it was done. */
+  async did(words: string[]): Promise<boolean> {
+    const answer = await this.run(words);
+    told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
+    this.patch = "";
+    await Promise.all([this.look(), this.history()]);
+    return answer.exit === 0;
   }
 
   /** Run what moves the bench, and follow it. */

@@ -88,7 +88,7 @@ export function ray(beam: Beam, strongest: number): Mesh {
   const share = strongest > 0 ? Math.max(beam.power / strongest, 0) : 0;
   const [r, g, b] = beam.color;
   const look = new MeshBasicMaterial({
-    color: new Color().setRGB(r, g, b, "srgb"), transparent: true, opacity: !beam.lit ? 0.16 : beam.ghost ? 0.3 : 0.4 + 0.55 * share, depthWrite: false,
+    color: new Color().setRGB(r, g, b, "srgb"), transparent: true, opacity: !beam.lit ? 0.22 : beam.ghost ? 0.3 : 0.4 + 0.55 * share, depthWrite: false,
   });
   const made = new Mesh(new CylinderGeometry(1, 1, length, 10, 1, true).scale(0.9 + 1.2 * share, 1, 0.9 + 1.2 * share), look);
   made.position.copy(from).addScaledVector(along, 0.5);

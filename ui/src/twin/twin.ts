@@ -27,6 +27,8 @@ export interface Told {
 const ACCENT = 0x1f8fff, BAD = 0xe0413a;
 /** Milliseconds between two pictures where the machine draws in software. */
 const SLOW = 120;
+/** How high an arm rises over the table, about [mm]. */
+const ARM_HEIGHT = 620;
 
 export class Twin {
   readonly #renderer: WebGLRenderer;
@@ -179,12 +181,12 @@ export class Twin {
   }
 
   view(name: View): void {
-    const table = this.#scene?.table;
-    const [w, d] = table?.size ?? [1200, 750];
-    const centre = new Vector3(w / 2, d / 2, 60);
+    const [w, d] = this.#scene?.table.size ?? [1200, 750];
+    const corners = [0, w].flatMap((x) => [0, d].flatMap((y) => [-60, 0].map((z) => new Vector3(x, y, z))));
+    for (const { mount } of this.#scene?.arms ?? []) corners.push(new Vector3(mount.x, mount.y, ARM_HEIGHT));
     const from = { iso: [-0.45, -1, 0.85], top: [0, -0.001, 1], front: [0, -1, 0.12], side: [1, -0.05, 0.25] }[name] as Vec;
     this.#follow = false;
-    this.#look(centre, new Vector3(...from).normalize(), Math.max(w, d * 1.4) / 2);
+    this.#fit(corners, new Vector3(...from).normalize());
   }
 
   /** Bring a part into the middle; `follow` keeps it there while it moves. */
@@ -258,6 +260,32 @@ export class Twin {
       this.#layers.marks.add(around);
       if (this.#follow && index === this.#selected) this.#controls.target.copy(group.position).setZ(60);
     }
+  }
+
+  /** Look so that all of some points are in the picture, seen along a direction. */
+  #fit(points: Vector3[], from: Vector3): void {
+    const target = points.reduce((sum, one) => sum.add(one), new Vector3()).divideScalar(points.length);
+    const right = new Vector3().crossVectors(this.#camera.up, from).normalize(), up = new Vector3().crossVectors(from, right);
+    const high = Math.tan((this.#camera.fov * Math.PI) / 360), wide = high * this.#camera.aspect;
+    let far = 0;
+    for (let round = 0; round < 4; round++) {
+      // each point asks for a distance; the middle is then moved to where both sides have the same room
+      let [left, most, low, top] = [Infinity, -Infinity, Infinity, -Infinity];
+      far = Math.max(...points.map((one) => {
+        const to = one.clone().sub(target);
+        return to.dot(from) + Math.max(Math.abs(to.dot(right)) / wide, Math.abs(to.dot(up)) / high);
+      }));
+      for (const one of points) {
+        const to = one.clone().sub(target), depth = far - to.dot(from);
+        left = Math.min(left, to.dot(right) / depth); most = Math.max(most, to.dot(right) / depth);
+        low = Math.min(low, to.dot(up) / depth); top = Math.max(top, to.dot(up) / depth);
+      }
+      target.addScaledVector(right, ((left + most) / 2) * far).addScaledVector(up, ((low + top) / 2) * far);
+    }
+    this.#controls.target.copy(target);
+    this.#camera.position.copy(target).addScaledVector(from, far * 1.06);
+    this.#controls.update();
+    this.#dirty = true;
   }
 
   #look(target: Vector3, from: Vector3, radius: number): void {
