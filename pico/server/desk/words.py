@@ -98,13 +98,13 @@ COMMANDS: Mapping[str, Command] = {
                                                     "--from="))),
     "measure": _moves("--dry-run"),
     "morning": _moves("--accept", "--detailed-exitcode", "--dry-run"),
-    "move": _moves("--speed=", "--dry-run"),
+    "move": _moves("--speed=", "--dry-run", "--manifest"),
     "optimize": _moves("--algorithm=", "--by-arm", "--dry-run"),
     "recover": _moves("--done=", "--not-done="),
     "resume": _moves("--stop-on-error"),
     "run": _moves("-p=", "--param=", "--dry-run", "--until=", "--resume", "--unattended"),
     "runs replay": _moves(),
-    "set": _moves("--dry-run"),
+    "set": _moves("--dry-run", "--manifest"),
     "undo": _moves(),
 }  # fmt: skip
 """The commands of a desk by name. Where a role is not enough at the bench, that says so."""

@@ -61,9 +61,11 @@ export async function ask<T>(method: Method, path: Path, parameters: Record<stri
 
 /** Ask for a stream of JSON lines; throws Refused. */
 export async function* lines<T>(
-  method: "get" | "post", path: string, body?: unknown, signal?: AbortSignal,
+  method: "get" | "post", path: string, body?: unknown, hears: { begun?(run: string): void; signal?: AbortSignal } = {},
 ): AsyncGenerator<T> {
-  const response = await answered(method, path, body, signal);
+  const response = await answered(method, path, body, hears.signal);
+  const run = response.headers.get("x-pico-run");
+  if (run) hears.begun?.(run);
   yield* split<T>(response.body!);
 }
 

@@ -1,6 +1,6 @@
 /** The checkout at the coordinator where the page has its commands run: what the page says is what one would type. */
 
-import { filled, lines, Refused, type Diagnostic } from "../api/client";
+import { ask, filled, lines, Refused, type Diagnostic } from "../api/client";
 import type {
   BenchEvent, Diagnostics, Diff, Log, Plan, Report, Revision, RunDocument, Said, Status,
 } from "../api/documents";
@@ -12,6 +12,8 @@ export interface Step { state: "waiting" | "going" | "done" | "failed" | "unknow
 
 export interface Going {
   words: string[];
+  /** What it is called among the desk's runs. */
+  run: string | null;
   plan: Plan | null;
   events: BenchEvent[];
   steps: Record<string, Step>;
@@ -37,14 +39,14 @@ class Desk {
   busy = $state<string[]>([]);
 
   /** Run a command to its end, and return all that it said; `hears` gets each document when it comes. */
-  async run(words: string[], hears: (said: Said) => void = () => undefined): Promise<Answer> {
-    const [command = "", ...rest] = words;
+  async run(words: string[], hears: (said: Said) => void = () => undefined, begun: (run: string) => void = () => undefined): Promise<Answer> {
+    const { path, rest } = asked(words);
     const answer: Answer = { said: [], exit: 1, diagnostics: [] };
     const shown = words.join(" ");
     this.busy = [...this.busy, shown];
     try {
-      const path = filled(`/api/labs/{lab}/desk/{command}`, { lab: bench.lab, command });
-      for await (const said of lines<Said>("post", path, { words: rest, session: bench.session })) {
+      const body = { words: rest, session: bench.session, bench: bench.name };
+      for await (const said of lines<Said>("post", filled(path, { lab: bench.lab }), body, { begun })) {
         if ("exit" in said && !("schema" in said)) answer.exit = (said as { exit: number }).exit;
         else {
           answer.said.push(said);
@@ -80,7 +82,7 @@ class Desk {
   }
 
   async recorded(): Promise<void> {
-    const found = await this.read<{ schema: "pico.runs/v1"; runs: { document: RunDocument }[] }>("pico.runs/v1", "runs");
+    const found = await this.read<{ schema: "pico.runs/v1"; runs: { document: RunDocument }[] }>("pico.runs/v1", "runs", "list", "--all");
     if (found) this.runs = found.runs.map((one) => one.document);
   }
 
@@ -119,17 +121,32 @@ class Desk {
     return answer.exit === 0;
   }
 
+  /** Cancel what is under way, as Ctrl-C would: nothing more starts, and a part in the hand is set down. */
+  async cancel(): Promise<void> {
+    const run = this.going?.run;
+    if (run) await told.trying(() => ask("delete", "/api/labs/{lab}/desk/runs/{run}", { lab: bench.lab, run }));
+    else await bench.halt();
+  }
+
   /** Run what moves the bench, and follow it. */
   async move(words: string[]): Promise<number> {
-    const going: Going = { words, plan: null, events: [], steps: {}, report: null, exit: null, diagnostics: [] };
+    const going: Going = { words, run: null, plan: null, events: [], steps: {}, report: null, exit: null, diagnostics: [] };
     this.going = going;
     const live = this.going; // the proxy that is watched
-    const answer = await this.run(words, (said) => heard(live, said));
+    const answer = await this.run(words, (said) => heard(live, said), (run) => (live.run = run));
     live.exit = answer.exit;
     live.diagnostics = answer.diagnostics;
     await Promise.all([this.look(), this.history(), this.recorded()]);
     return answer.exit;
   }
+}
+
+const TWO = ["catalog", "laser", "recipe", "runs", "sim"];
+
+/** Where words are said: a command of two words has two parts. */
+export function asked(words: string[]): { path: string; rest: string[] } {
+  const count = TWO.includes(words[0] ?? "") ? 2 : 1;
+  return { path: `/api/labs/{lab}/desk/${words.slice(0, count).join("/")}`, rest: words.slice(count) };
 }
 
 /** Take in one document of a command that moves the bench. */

@@ -59,8 +59,8 @@ export function badge(text: string, colour: number): Sprite {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   pen.fillText(text, 32, 34);
-  const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false }));
-  made.scale.setScalar(0.042);
+  const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
+  made.scale.setScalar(0.03);
   made.renderOrder = 10;
   return made;
 }
