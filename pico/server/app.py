@@ -23,12 +23,12 @@ from pico.server.inner import desking
 from pico.server.live.watching import watching
 from pico.server.page.serving import page
 from pico.server.relay.relaying import relaying
-from pico.server.routes import calls, desk, edge, events, labs, leases, link, live, people
+from pico.server.routes import calls, desk, edge, events, labs, leases, link, live, people, session
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
 
 ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, live.router,
-           calls.router, desk.router)  # fmt: skip
+           calls.router, desk.router, session.router)  # fmt: skip
 NO_DESKS = Desking()
 TICK = 0.5
 """How often leases that are over are looked for [s]."""

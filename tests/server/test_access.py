@@ -21,7 +21,11 @@ from pico.server.store.tables import metadata
 
 SEEN = frozenset({("GET", "/api/health")})
 """What anybody may see."""
-CODES = {"/api/login": b'{"code": "no"}', "/api/edge/enrol": b'{"code": "no", "key": "%s"}' % (b"0" * 64)}
+CODES = {
+    "/api/login": b'{"code": "no"}',
+    "/api/session": b'{"secret": "no"}',
+    "/api/edge/enrol": b'{"code": "no", "key": "%s"}' % (b"0" * 64),
+}
 """What is said where a code lets somebody in."""
 BODIES = (b"", b"{", b"[]", b'{"session": "s", "wait": 0, "token": 1, "reason": "x", "rights": [], "code": "x"}')
 

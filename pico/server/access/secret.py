@@ -9,6 +9,8 @@ import secrets
 
 LONGEST = 366 * 86400.0
 """The longest that a token lasts [s]."""
+SESSION_LASTS = 7 * 86400.0
+"""The longest that a browser is let in without its token being shown again [s]."""
 CODE_LASTS = 2 * 86400.0
 """The longest in which a code is to be exchanged for a token [s]."""
 

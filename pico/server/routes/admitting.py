@@ -76,14 +76,44 @@ def books(app: FastAPI | Any) -> Books:
 async def authenticated(connection: HTTPConnection) -> Principal:
     """Return whose token a request carries; raises PicoError (status 401), and 429 for who asks too often."""
     with guessing(connection):
-        secret = bearer(connection.headers.get("authorization"))
-        found = books(connection.app).people.known(secret) if secret else None
+        found = whose(connection)
         if found is None:
             raise unauthenticated()
+    if not connection.headers.get("authorization"):
+        _require_origin(connection)
     urgent = connection.url.path.endswith(URGENT)
     if not urgent and not connection.app.state.requests.taken(found.name, time.monotonic()):
         raise _too_often()
     return found
+
+
+def whose(connection: HTTPConnection) -> Principal | None:
+    """Return whom a request's token, else its session of a browser, lets in; None where there is none that does."""
+    people, header = books(connection.app).people, connection.headers.get("authorization")
+    if header:
+        secret = bearer(header)
+        return people.known(secret) if secret else None
+    session = session_of(connection)
+    return people.seated(session) if session else None
+
+
+def session_of(connection: HTTPConnection) -> str:
+    """Return the session of a browser that a request carries; empty where there is none."""
+    return connection.cookies.get(cookie_name(connection), "")
+
+
+def cookie_name(connection: HTTPConnection) -> str:
+    """Return what the cookie of a session is called: browsers do not tell ports of a host apart."""
+    return f"pico_session_{connection.url.port or connection.url.scheme}"
+
+
+def _require_origin(connection: HTTPConnection) -> None:
+    """Raise PicoError (status 403) for what a browser does in the name of its session and does not say for which page:
+    an Origin that is said is this host (see `Gatekeeper`)."""
+    looks = connection.scope["type"] == "http" and connection.scope["method"] in ("GET", "HEAD", "OPTIONS")
+    if not looks and not connection.headers.get("origin"):
+        text = "with a session of a browser this needs an Origin"
+        raise PicoError(error("forbidden", text, hint="a program sends its token: `Authorization: Bearer ...`"))
 
 
 @contextmanager
@@ -113,8 +143,7 @@ class Admitted:
     def principal(self) -> Principal:
         """Return the principal, with what it may now; raises PicoError (status 401) once its token is over."""
         if time.monotonic() - self._asked > FRESH:
-            secret = bearer(self._socket.headers.get("authorization"))
-            found = books(self._socket.app).people.known(secret)
+            found = whose(self._socket)
             if found is None:
                 raise unauthenticated()
             self._principal, self._asked = found, time.monotonic()

@@ -11,10 +11,10 @@ from sqlalchemy import Connection, delete, insert, select, update
 
 from pico.diagnostics import PicoError, error
 from pico.server.access.principal import Principal, Right, require_name
-from pico.server.access.secret import CODE_LASTS, LONGEST, fingerprint, new_secret
+from pico.server.access.secret import CODE_LASTS, LONGEST, SESSION_LASTS, fingerprint, new_secret
 from pico.server.store.database import Database
 from pico.server.store.ordered import write_audit
-from pico.server.store.tables import principals, rights, tokens
+from pico.server.store.tables import principals, rights, sessions, tokens
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,15 +114,37 @@ class People:
     def known(self, secret: str) -> Principal | None:
         """Return whom a token lets in; None for one that is none, or none any more."""
         with self._database.reading() as connection:
+            return _known(connection, self._database.now(connection), tokens.c.hash == fingerprint(secret))
+
+    # browsers
+
+    def opened(self, secret: str) -> Issued | None:
+        """Make a session of a token, which ends with it; None for what is no token, or none any more."""
+        with self._database.writing() as connection:
             now = self._database.now(connection)
-            mine = (tokens.c.hash == fingerprint(secret)) & (tokens.c.kind == "token")
-            row = connection.execute(select(tokens).where(mine)).first()
-            if row is None or row.ended_at is not None or row.expires_at <= now or _disabled(connection, row.principal):
+            whose = _known(connection, now, tokens.c.hash == fingerprint(secret))
+            if whose is None:
                 return None
-            having = _rights(connection, row.principal)
-            if row.scope is not None:
-                having &= frozenset(Right(*pair) for pair in json.loads(row.scope))
-            return Principal(row.principal, having, row.id, row.expires_at)
+            made = Issued(whose.token, new_secret("session"), min(now + SESSION_LASTS, whose.expires_at))
+            values = {"token": whose.token, "created_at": now, "expires_at": made.expires_at}
+            connection.execute(insert(sessions).values(hash=fingerprint(made.secret), **values))
+            return made
+
+    def seated(self, secret: str) -> Principal | None:
+        """Return whom a session lets in; None for one that is none, or none any more."""
+        with self._database.reading() as connection:
+            now = self._database.now(connection)
+            row = connection.execute(select(sessions).where(sessions.c.hash == fingerprint(secret))).first()
+            if row is None or row.ended_at is not None or row.expires_at <= now:
+                return None
+            return _known(connection, now, tokens.c.id == row.token)
+
+    def closed(self, secret: str) -> bool:
+        """End a session; return whether there was one that lasted."""
+        with self._database.writing() as connection:
+            mine = (sessions.c.hash == fingerprint(secret)) & sessions.c.ended_at.is_(None)
+            ended = connection.execute(update(sessions).where(mine).values(ended_at=self._database.now(connection)))
+            return bool(ended.rowcount)
 
 
 def _issue(
@@ -141,6 +163,16 @@ def _issue(
     connection.execute(insert(tokens).values(**row))
     write_audit(connection, now, kind, by, of=f"{name}/{made.id}", why=label[:200])
     return made
+
+
+def _known(connection: Connection, now: float, which: Any) -> Principal | None:
+    row = connection.execute(select(tokens).where(which, tokens.c.kind == "token")).first()
+    if row is None or row.ended_at is not None or row.expires_at <= now or _disabled(connection, row.principal):
+        return None
+    having = _rights(connection, row.principal)
+    if row.scope is not None:
+        having &= frozenset(Right(*pair) for pair in json.loads(row.scope))
+    return Principal(row.principal, having, row.id, row.expires_at)
 
 
 def _rights(connection: Connection, name: str) -> frozenset[Right]:

@@ -142,6 +142,16 @@ tokens = Table(
 """What lets a principal in, as SHA-256. `kind`: a `token`, or a `code` that is exchanged for one, once. `scope`: the
 rights of the principal that it carries, all where it is null. `ended_at`: revoked, or exchanged."""
 
+sessions = Table(
+    "sessions", metadata,
+    Column("hash", LargeBinary(32), primary_key=True),
+    Column("token", ForeignKey("tokens.id"), nullable=False),
+    Column("created_at", Float, nullable=False),
+    Column("expires_at", Float, nullable=False),
+    Column("ended_at", Float),
+)  # fmt: skip
+"""What lets a browser in, as SHA-256, as long as the token does for which it was given."""
+
 edges = Table(
     "edges", metadata,
     Column("bench", ForeignKey("benches.bench"), primary_key=True),
