@@ -60,7 +60,8 @@ def run(
 
     It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down
     when it begins and when it is done: after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was,
-    measures nothing twice and loses nothing. With --detach it goes on by itself, and `pico runs attach` follows it. An
+    measures nothing twice and loses nothing. With --detach it goes on by itself, of a bench on the network beside its
+    coordinator with what the checkout holds, and `pico runs attach` follows it and brings its commits and runs. An
     assertion that fails ends it with exit code 6. With --json: a line for each step, and one for the end.
 
     Examples:
@@ -100,6 +101,8 @@ def run(
         return int(ExitCode.ERROR)
     if seed is not None:
         bench.sim.reset(seed)
+    if detach and bench.far is not None:
+        return _detach(session, recipes, found, given or [], alone)
     if detach:
         return _leave(session, recipes, found, arguments, alone)
     return _carry_out(session, recipes, found, recipes.begin(found, arguments), until, True, alone, junit)
@@ -127,6 +130,18 @@ def _leave(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mappin
     log = recipes.begin(recipe, arguments)
     leave(session, recipes.bench, log, alone)
     session.show(left, log.about.id, by="in a process of its own on this machine")
+    return int(ExitCode.DONE)
+
+
+def _detach(session: Session, recipes: Recipes, recipe: Recipe, given: list[str], alone: bool) -> int:
+    """Leave a run of a recipe to the coordinator of the bench."""
+    from ..runs.detached import detach
+    from ..views import left
+
+    far = recipes.bench.far
+    assert far is not None
+    run = detach(recipes.bench, Path(recipe.path), given, alone)
+    session.show(left, run, by=f"beside {far.remote.url}")
     return int(ExitCode.DONE)
 
 

@@ -89,6 +89,8 @@ def attach(
 ) -> int:
     """Follow a run that the bench has under way, whoever began it, or a recipe that goes on by itself.
 
+    What a recipe committed beside a coordinator comes as the branch `detached/RUN`; its runs go into the next commit.
+
     From its first event to its report, with the exit code of that. Ctrl-C lets go of it: it goes on, and `pico stop`
     ends it. With --json: each event and the report, a line each.
 
@@ -96,6 +98,7 @@ def attach(
       pico runs attach
       pico runs attach 7b7b54 --bench shel/bench1
     """
+    from ..runs import detached as beside
     from ..runs.leaving import follow, left
     from ..runs.running import Screen
     from ..views import report as report_view
@@ -108,6 +111,12 @@ def attach(
             return follow(session, path)
         except KeyboardInterrupt:
             session.say(f"\nRun {path.stem} goes on: `pico runs attach` follows it again.")
+            raise
+    if (sent := beside.detached(bench, run)) is not None:
+        try:
+            return beside.follow(session, bench, sent)
+        except KeyboardInterrupt:
+            session.say(f"\nRun {sent.run} goes on: `pico runs attach` follows it again.")
             raise
     going = bench.moves.follow(run)
     screen = Screen(session, Progress(going.plan))

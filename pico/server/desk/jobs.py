@@ -73,9 +73,9 @@ class Job:
                     file = path.open("rb")
                 while file is not None and (piece := file.read(1 << 20)):
                     *lines, rest = (rest + piece).split(b"\n")
-                    for line in lines:
+                    for line in filter(None, lines):
                         count += 1
-                        if count > since and line:
+                        if count > since:
                             yield _document(line)
                     await asyncio.sleep(0)
                 if over:

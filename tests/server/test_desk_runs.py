@@ -1,0 +1,171 @@
+"""Runs at desks go on without a listener, are listed, followed and cancelled; recipes are detached, and come back."""
+
+from __future__ import annotations
+
+import http.client
+import json
+import shutil
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commanding import Pico
+from coordinators import served
+from desks import WARM, Desked, desked
+
+from pico.backends.sim.session import WorldSession
+from pico.history.examples.example import make_example
+from pico.server.desk.desks import Desking
+
+RECIPE = """\
+apiVersion: pico/v1
+kind: Recipe
+metadata: {name: turning}
+parameters: {to: 1}
+steps:
+  - set: {p1.angle: to}
+  - capture:
+  - commit: turned
+  - set: {p1.angle: 5}
+"""
+
+
+@pytest.fixture(scope="module")
+def desk(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Desked]:
+    folder = tmp_path_factory.mktemp("runs")
+    with desked(folder / "books", make_example("shel", folder / "shel").root) as found:
+        yield found
+
+
+def slow(monkeypatch: pytest.MonkeyPatch, pause: float) -> None:
+    """Let each phase of what the arm does last so much longer [s]."""
+    tell = WorldSession._tell
+
+    def telling(self: WorldSession, *what: Any) -> None:
+        tell(self, *what)
+        time.sleep(pause)
+
+    monkeypatch.setattr(WorldSession, "_tell", telling)
+
+
+def run_of(desk: Desked, token: str, run: str) -> dict[str, Any]:
+    return desk.served.ask("GET", f"/api/labs/shel/desk/runs/{run}", token)[1]
+
+
+def lines(desk: Desked, token: str, run: str, since: int = 0) -> list[Any]:
+    status, body = desk.served.ask("GET", f"/api/labs/shel/desk/runs/{run}/events?since={since}", token)
+    assert status == 200, body
+    return [json.loads(line) for line in body.splitlines()]
+
+
+def test_a_run_goes_on_without_who_began_it_and_others_follow_it_from_any_line(
+    desk: Desked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slow(monkeypatch, 0.002)
+    anna, vera = desk.served.person("anna", "operator"), desk.served.person("vera", "viewer")
+    link = http.client.HTTPConnection("127.0.0.1", desk.served.port, timeout=60)
+    sent = {"authorization": f"Bearer {anna}", "content-type": "application/json"}
+    link.request("POST", "/api/labs/shel/desk/apply", json.dumps({"words": ["e1", "-y"]}), sent)
+    answer = link.getresponse()
+    run, first = answer.getheader("x-pico-run", ""), json.loads(answer.readline())
+    link.sock.close()
+    answer.close()
+    assert run_of(desk, vera, run)["exit"] is None
+    found = lines(desk, vera, run)
+    assert found[0] == first and found[-1]["exit"] == 0 and len(found) > 10
+    assert lines(desk, vera, run, since=7) == found[7:] and lines(desk, vera, run, 10_000) == found[-1:]
+    assert run_of(desk, vera, run)["exit"] == 0
+    assert desk.served.ask("GET", "/api/labs/shel/desk/runs/nothing/events", vera)[0] == 404
+
+
+def test_who_began_a_run_cancels_it_as_ctrl_c_does_and_nobody_else(
+    desk: Desked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slow(monkeypatch, 0.1)
+    anna, ben = desk.served.person("anna", "operator"), desk.served.person("ben", "operator")
+    status, told = desk.at(anna, "apply", "e3", "-y", detach=True)
+    assert status == 202
+    run = told[0]["run"]
+    while not any('"operation_started"' in line.decode() for line in desk_said(desk, run)):
+        time.sleep(0.02)
+    path = f"/api/labs/shel/desk/runs/{run}"
+    assert desk.served.ask("DELETE", path, ben)[0] == 403
+    assert desk.served.ask("DELETE", path, anna)[0] == 200
+    monkeypatch.undo()
+    assert lines(desk, anna, run)[-1]["exit"] == 130
+    assert run_of(desk, anna, run)["ended_at"] is not None
+    assert desk.said(anna, "status")
+
+
+def desk_said(desk: Desked, run: str) -> list[bytes]:
+    path = desk.served.books.folder / "desks" / "shel" / "runs" / run / "said.ndjson"
+    return path.read_bytes().splitlines() if path.exists() else []
+
+
+def test_nobody_has_more_commands_going_than_there_is_room_for(desk: Desked, monkeypatch: pytest.MonkeyPatch) -> None:
+    from pico.server.desk import desks
+
+    monkeypatch.setattr(desks, "AT_ONCE", 0)
+    status, told = desk.at(desk.served.person("anna", "operator"), "status")
+    assert status == 429 and "commands going" in told[0]["error"][0]["summary"]
+    monkeypatch.undo()
+    monkeypatch.setattr(desks, "LASTS", 0.0)
+    assert desk.at(desk.served.person("anna", "operator"), "plan", "e2")[1][-1] == {
+        "exit": 130,
+        "why": "it went on for too long",
+    }
+
+
+def test_a_recipe_goes_on_beside_the_coordinator_and_its_commits_and_runs_come_back(
+    desk: Desked, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
+) -> None:
+    mine = Path(shutil.copytree(desk.root, tmp_path / "mine", ignore=shutil.ignore_patterns(".pico")))
+    monkeypatch.chdir(mine)
+    monkeypatch.setenv("PICO_TOKEN", desk.served.person("anna", "operator"))
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    assert pico("remote", "add", "lab", f"http://127.0.0.1:{desk.served.port}", "--default", "shel/bench1").code == 0
+    (mine / "recipes" / "turning.yaml").write_text(RECIPE)
+    before = (mine / "state" / "table.yaml").read_text(), git(mine, "status", "--porcelain"), git(mine, "branch")
+    left = pico("--json", "run", "turning", "-p", "to=4", "--yes", "--detach")
+    assert left.code == 0, left.err + left.out
+    run = json.loads(left.out)["run"]
+    found = pico("runs", "attach", run[:6])
+    assert found.code == 0 and "turning: done" in found.out and f"detached/{run}" in found.out, found.out + found.err
+    assert (mine / "state" / "table.yaml").read_text() == before[0] and git(mine, "status", "--porcelain") == before[1]
+    assert git(mine, "log", "-1", "--format=%an %s", f"detached/{run}") == "anna turned"
+    assert git(mine, "rev-parse", f"detached/{run}~2") == git(mine, "rev-parse", "HEAD")
+    assert "angle: 4" in git(mine, "show", f"detached/{run}:state/table.yaml")
+    ended = run_of(desk, desk.served.person("vera", "viewer"), run)
+    assert len(ended["runs"]) >= 2 and not (desk.served.books.folder / "desks/shel/on" / f"run%anna%{run}").exists()
+    assert pico("commit", "-m", "what it did", "--capture").code == 0
+    carried = {path.parent.name for path in (mine / "runs").rglob("run.json")}
+    there = git(mine, "ls-tree", "-r", "--name-only", f"detached/{run}", "runs")
+    committed = {Path(path).parent.name for path in there.splitlines()}
+    assert carried and committed and carried | committed <= set(ended["runs"])
+    assert pico("run", "/etc/hosts", "--yes", "--detach").code == 1
+
+
+def git(root: Path, *words: str) -> str:
+    return subprocess.run(["git", "-C", root, *words], check=True, capture_output=True, text=True).stdout.strip()
+
+
+def test_what_a_coordinator_left_going_has_ended_when_it_is_back(tmp_path: Path) -> None:
+    folder = tmp_path / "desks" / "shel" / "runs" / "abc"
+    folder.mkdir(parents=True)
+    about = {"id": "abc", "lab": "shel", "bench": "bench1", "who": "anna", "command": "apply", "words": ["-y"],
+             "began_at": 1.0, "runs": []}  # fmt: skip
+    (folder / "about.json").write_text(json.dumps(about))
+    (folder / "said.ndjson").write_text('{"kind": "run_started"}\n')
+    with served(tmp_path, desks=Desking(WARM)) as serving:
+        serving.bench()
+        token = serving.person("anna", "operator")
+        status, told = serving.ask("GET", "/api/labs/shel/desk/runs/abc", token)
+        assert status == 200 and told["exit"] == 130 and told["why"] == "the coordinator ended meanwhile"
+        status, said = serving.ask("GET", "/api/labs/shel/desk/runs/abc/events", token)
+        assert [json.loads(line) for line in said.splitlines()] == [
+            {"kind": "run_started"}, {"exit": 130, "why": "the coordinator ended meanwhile"},
+        ]  # fmt: skip
+        assert serving.ask("DELETE", "/api/labs/shel/desk/runs/abc", token)[0] == 200
