@@ -90,11 +90,13 @@ def coordinator(folder: Path, port: int) -> None:
 @dataclass
 class Network:
     """The lab in `folder`, and the processes that serve it by name. `emulated`: its table is emulated, in a process of
-    its own. `cable`: to the namespace that edge and table are in, None where all are in one."""
+    its own. `cable`: to the namespace that edge and table are in, None where all are in one. `direct`: the edge dials
+    the coordinator itself, by no link of ours."""
 
     folder: Path
     emulated: bool
     cable: Cable | None = None
+    direct: bool = False
     running: dict[str, int] = field(default_factory=dict)
     frozen: set[str] = field(default_factory=set)
     weather: dict[str, Weather] = field(default_factory=lambda: {"link": Weather(), "line": Weather()})
@@ -103,7 +105,8 @@ class Network:
     def __post_init__(self) -> None:
         from pico.history.examples.example import make_example
 
-        self.port, self.near, self.far = free_port(), free_port(), free_port()
+        self.port, self.near = free_port(), free_port()
+        self.far = self.port if self.direct else free_port()
         self.beside, self.checkout, self.books = (self.folder / n for n in ("beside", "checkout", "books"))
         make_example("shel", self.beside)
         make_example("shel", self.checkout)
@@ -160,6 +163,8 @@ class Network:
             "line": lambda: link(("127.0.0.1", self.near), here, weather["line"]),
             "link": lambda: link((cable.here if cable else "127.0.0.1", port), here, weather["link"]),
         }
+        if self.direct:
+            del served["link"]
         beside: dict[str, Callable[[], None]] = {}
         if note is not None:
             beside["table"] = lambda: table(self.beside, note, self.log)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections import Counter
 from collections.abc import AsyncIterator, Callable, Collection
 from contextlib import AbstractAsyncContextManager, AsyncExitStack, asynccontextmanager, suppress
 from typing import Any
@@ -56,6 +57,7 @@ def create_app(
     )  # fmt: skip
     app.state.books = books
     app.state.desking = desks
+    app.state.sockets = Counter()
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
     for router in ROUTERS:
         app.include_router(router)
@@ -75,7 +77,7 @@ async def _lapsing(app: FastAPI) -> AsyncIterator[None]:
     async def tick() -> None:
         while True:
             await asyncio.sleep(TICK)
-            for bench in await books.do(books.leases.due):
+            for bench in await books.look(books.leases.due):
                 await books.turn(books.leases.promoted, bench)
 
     ticking = asyncio.create_task(tick())

@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
+import http.client
 import json
 import logging
 import random
+import threading
 import time
-from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import AsyncIterator, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from typing import Any
 
 import pytest
 from coordinators import BENCH, Served, served
 from edges import Connected, connected
-from test_access import dump, lacking
+from test_access import dump, lacking, refused
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
@@ -21,6 +24,7 @@ from pico.edge.link import wire
 from pico.edge.network import messages
 from pico.edge.network.roles import ROLES
 from pico.history.examples.example import make_example
+from pico.server.routes import admitting
 from pico.server.store.edges import Edges
 
 LINK = f"/api/benches/{BENCH}/link"
@@ -80,6 +84,52 @@ def test_a_socket_ends_with_its_token_and_gives_back_what_it_held(bench: tuple[S
         with pytest.raises(ConnectionClosed):
             socket.recv(timeout=30)
     while coordinator.books.leases.shown(BENCH)[0].grant is not None:
+        time.sleep(0.01)
+
+
+def test_a_long_answer_ends_with_its_token(bench: tuple[Served, Connected], monkeypatch: pytest.MonkeyPatch) -> None:
+    coordinator, _ = bench
+    let_go = threading.Event()
+
+    async def endless(call: Any) -> AsyncIterator[dict[str, Any]]:
+        try:
+            yield {"next": 1}
+            await asyncio.Event().wait()
+        finally:
+            let_go.set()
+
+    monkeypatch.setattr(coordinator.app.state.dispatcher, "answers", endless)
+    token = coordinator.person("zoe", "viewer@shel")
+    link = http.client.HTTPConnection("127.0.0.1", coordinator.port, timeout=30)
+    sent = {"authorization": f"Bearer {token}", "content-type": "application/json"}
+    link.request("POST", f"/api/benches/{BENCH}/calls/events", json.dumps({"with": ["run", 0]}), sent)
+    answer = link.getresponse()
+    assert json.loads(answer.readline()) == {"next": 1}
+    coordinator.books.people.settled("zoe", [], by="root", disabled=True)
+    assert json.loads(answer.readline())["error"][0]["code"] == "unauthenticated"
+    assert answer.readline() == b"" and let_go.wait(30)
+    link.close()
+
+
+def test_nobody_has_more_sockets_than_there_may_be(
+    bench: tuple[Served, Connected], monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    coordinator, _ = bench
+    monkeypatch.setattr(admitting, "SOCKETS", 3)
+    token = coordinator.person("max", "viewer@shel")
+    with ExitStack() as sockets:
+        first = sockets.enter_context(coordinator.watch("/api/events", token))
+        for path in (LINK, f"/api/benches/{BENCH}/live"):
+            sockets.enter_context(coordinator.watch(path, token))
+        for path in ("/api/events", LINK, f"/api/benches/{BENCH}/live"):
+            assert refused(coordinator, path, token) == 429
+        with coordinator.watch("/api/events", coordinator.person("mia", "viewer@shel")):
+            first.close()
+        while coordinator.app.state.sockets["max"] > 2:
+            time.sleep(0.01)
+        with coordinator.watch("/api/events", token) as again:
+            again.recv(timeout=30)
+    while coordinator.app.state.sockets["max"]:
         time.sleep(0.01)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, MutableMapping
+from collections.abc import Callable, Collection, MutableMapping
 from typing import Any
 
 from starlette.exceptions import HTTPException
@@ -24,6 +24,8 @@ _HEADERS = (
     (b"content-security-policy", b"default-src 'none'; frame-ancestors 'none'"),
 )
 Scope = MutableMapping[str, Any]
+OVER = "pico.over"
+"""Where a request's scope has what is done once it is over."""
 
 
 class Gatekeeper:
@@ -43,7 +45,13 @@ class Gatekeeper:
         if refused := self._refused(scope, headers):
             await _answer(scope, send, *refused)
             return
-        await _Bounded(self._app, longest(scope["path"]))(scope, receive, send)
+        over: list[Callable[[], None]] = []
+        scope[OVER] = over
+        try:
+            await _Bounded(self._app, longest(scope["path"]))(scope, receive, send)
+        finally:
+            for done in over:
+                done()
 
     def _refused(self, scope: Scope, headers: dict[bytes, list[str]]) -> tuple[int, str] | None:
         hosts = headers.get(b"host", [])

@@ -152,7 +152,7 @@ class Dispatcher:
 
     async def _holder(self, call: Call) -> Document:
         async for answer in self._relayed(call):
-            row, _, since = await self._books.do(self._books.leases.shown, call.bench)
+            row, _, since = await self._books.look(self._books.leases.shown, call.bench)
             grant = row.grant
             if answer.get("value", 0) is None and grant is not None and "~" not in grant.holder.session:
                 return {"value": {
@@ -205,7 +205,7 @@ class Dispatcher:
         """Return the lease that a call is made under, once its edge has fenced for it; raises PicoError (exit code
         LOCKED) naming who has the bench."""
         leases, mine = self._books.leases, call.asker
-        row, _, _ = await self._books.do(leases.shown, call.bench)
+        row, _, _ = await self._books.look(leases.shown, call.bench)
         grant = row.grant
         if grant is not None and grant.holder.session == mine.session:
             grant = await self._fenced(call, mine, 0.0)
@@ -251,7 +251,7 @@ class Dispatcher:
             self._cancelled.pop(mine, None)
 
     async def _in_use(self, bench: str) -> Any:
-        row, _, since = await self._books.do(self._books.leases.shown, bench)
+        row, _, since = await self._books.look(self._books.leases.shown, bench)
         who = row.grant.holder.who if row.grant is not None else "somebody"
         what, line = TAKEN, self.hub.connected(bench)
         with suppress(Gone, LookupError, TypeError):
@@ -303,7 +303,7 @@ class Dispatcher:
                 record = Record(command, "done", json.dumps(answer, separators=(",", ":")))
                 await self._books.do(self.rows.answered, bench, command.key, record)
                 return answer
-            row, now, _ = await self._books.do(self._books.leases.shown, bench)
+            row, now, _ = await self._books.look(self._books.leases.shown, bench)
             if row.grant is None or row.grant.token != command.token or now > row.grant.expires:
                 raise PicoError(_over(bench, command.token), ExitCode.LOCKED)
             if answer["refused"] == "conflict":
@@ -312,7 +312,7 @@ class Dispatcher:
 
     async def _detached(self, bench: str, token: int, run: str) -> None:
         """Let a run that is to be started renew the lease that was asked for it."""
-        row, _, _ = await self._books.do(self._books.leases.shown, bench)
+        row, _, _ = await self._books.look(self._books.leases.shown, bench)
         grant = row.grant
         own = grant is not None and grant.token == token and "~" in grant.holder.session and not grant.job
         if own and grant is not None and run:
@@ -320,9 +320,9 @@ class Dispatcher:
 
     async def resumed(self, bench: str) -> None:
         """Send again what an edge that has connected was not told of, under the lease that counts."""
-        row, _, _ = await self._books.do(self._books.leases.shown, bench)
+        row, _, _ = await self._books.look(self._books.leases.shown, bench)
         if row.grant is not None:
-            for due in await self._books.do(self.rows.due, bench, row.grant.token):
+            for due in await self._books.look(self.rows.due, bench, row.grant.token):
                 self._sent(bench, due.row.command, json.loads(due.call))
 
     # leases that are held

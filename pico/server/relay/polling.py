@@ -21,7 +21,7 @@ class Polled:
         """Return which token counts, and how long still. What an edge says of itself is of when it asked."""
         books, line, bench = self._books, self._line, self._line.bench
         line.fenced, line.moving = int(poll["fenced"]), str(poll["moving"] or "")
-        row, now, _ = await books.do(books.leases.shown, bench)
+        row, now, _ = await books.look(books.leases.shown, bench)
         if not self._met or _tells(row, line.fenced):
             row, self._met = (await books.turn(books.leases.heard, bench, line.fenced)).row, True
         grant = row.grant
@@ -32,10 +32,10 @@ class Polled:
             elif (
                 grant.job
                 and not poll["busy"]
-                and int(poll["taken"]) >= await books.do(self._rows.last, bench, grant.token)
+                and int(poll["taken"]) >= await books.look(self._rows.last, bench, grant.token)
             ):  # its run is over
                 row = (await books.turn(books.leases.released, bench, grant.holder.session, grant.token)).row
-        _, now, _ = await books.do(books.leases.shown, bench)
+        _, now, _ = await books.look(books.leases.shown, bench)
         token, seconds = left(row, now)
         return {"lease": {"asked": poll["asked"], "token": token, "left": seconds}}
 

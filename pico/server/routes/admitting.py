@@ -6,8 +6,11 @@ without.
 
 from __future__ import annotations
 
+import asyncio
+import json
 import time
-from collections.abc import Callable, Coroutine, Iterator
+from collections import Counter
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Coroutine, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -19,6 +22,7 @@ from starlette.responses import JSONResponse
 from pico.diagnostics import PicoError, error
 from pico.server.access.principal import Principal, unauthenticated
 from pico.server.access.secret import bearer
+from pico.server.guard.gatekeeper import OVER
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import failure, status_of
 from pico.server.store.books import Books
@@ -26,6 +30,8 @@ from pico.server.store.books import Books
 ROLE = "x-pico-role"
 URGENT = ("/calls/stop", "/calls/halt")
 """Paths that are answered however often somebody asks."""
+SOCKETS = 100
+"""How many sockets a principal may have open at a time."""
 FRESH = 1.0
 """How long a socket goes by what a token let it do, before it asks again [s]."""
 
@@ -135,9 +141,9 @@ def _too_often() -> PicoError:
 
 
 class Admitted:
-    """Whom a socket let in, asked for again while it lasts: a token that is revoked ends here, too."""
+    """Whom a socket or a long answer let in, asked for again while it lasts: a token that is revoked ends here, too."""
 
-    def __init__(self, socket: WebSocket, principal: Principal) -> None:
+    def __init__(self, socket: HTTPConnection, principal: Principal) -> None:
         self._socket, self._principal, self._asked = socket, principal, time.monotonic()
 
     def principal(self) -> Principal:
@@ -150,11 +156,51 @@ class Admitted:
         return self._principal
 
 
+async def while_known(
+    connection: HTTPConnection, principal: Principal, lines: AsyncIterator[bytes]
+) -> AsyncIterator[bytes]:  # fmt: skip
+    """Yield what a long answer says, a line each, as long as the token lasts; then that it does not."""
+    admitted = Admitted(connection, principal)
+    following: asyncio.Future[bytes] | None = None
+    try:
+        while True:
+            following = asyncio.ensure_future(anext(lines))
+            while not (await asyncio.wait([following], timeout=FRESH))[0]:
+                admitted.principal()
+            admitted.principal()
+            yield following.result()
+    except StopAsyncIteration:
+        pass
+    except PicoError as exc:
+        yield json.dumps(failure(exc), separators=(",", ":")).encode() + b"\n"
+    finally:
+        if following is not None and not following.done():
+            following.cancel()
+            await asyncio.wait([following])
+        if isinstance(lines, AsyncGenerator):
+            await lines.aclose()
+
+
+def _count(socket: WebSocket, name: str) -> None:
+    """Count a socket of a principal until it is over; raises PicoError (status 429) for one too many."""
+    sockets: Counter[str] = socket.app.state.sockets
+    if sockets[name] >= SOCKETS:
+        text = f"{name} has {SOCKETS} sockets open, and may have no more"
+        raise PicoError(error("limit", text, hint="close pages and clients that are not needed"))
+
+    def over() -> None:
+        sockets[name] -= 1
+
+    sockets[name] += 1
+    socket.scope[OVER].append(over)
+
+
 async def admit(socket: WebSocket, role: str, lab: str = "*") -> Admitted | None:
     """Let a socket in (it is not accepted yet), or answer why not and return None."""
     try:
         principal = await authenticated(socket)
         principal.require(role, lab)
+        _count(socket, principal.name)
         return Admitted(socket, principal)
     except PicoError as exc:
         await socket.send_denial_response(refusal(exc))

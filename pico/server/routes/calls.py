@@ -16,7 +16,7 @@ from pico.edge.network.roles import ROLES
 from pico.server.access.principal import Principal
 from pico.server.guard.saying import STATUS
 from pico.server.relay.dispatch import Call, Dispatcher
-from pico.server.routes.admitting import books, needs, routed
+from pico.server.routes.admitting import books, needs, routed, while_known
 from pico.server.routes.people import Body
 
 router = routed()
@@ -40,7 +40,9 @@ def _route(name: str) -> None:
         session = asked.session or f"rest-{secrets.token_hex(8)}"
         call = dispatcher.call(me, session, f"{lab}/{bench}", name, asked.arguments)
         if name in wire.STREAMS:
-            return StreamingResponse(_lines(dispatcher, call), media_type="application/x-ndjson")
+            return StreamingResponse(
+                while_known(request, me, _lines(dispatcher, call)), media_type="application/x-ndjson"
+            )
         try:
             async for answer in dispatcher.answers(call):
                 return JSONResponse(answer, _status(answer))
@@ -55,10 +57,10 @@ def _route(name: str) -> None:
     )
 
 
-async def _lines(dispatcher: Dispatcher, call: Call) -> AsyncIterator[str]:
+async def _lines(dispatcher: Dispatcher, call: Call) -> AsyncIterator[bytes]:
     try:
         async for answer in dispatcher.answers(call):
-            yield json.dumps(answer, separators=(",", ":")) + "\n"
+            yield json.dumps(answer, separators=(",", ":")).encode() + b"\n"
     finally:
         await dispatcher.close(call)
 

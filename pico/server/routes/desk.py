@@ -14,7 +14,7 @@ from pico.server.access.principal import Principal
 from pico.server.desk.desks import Desks, Wanted
 from pico.server.desk.jobs import About, Job
 from pico.server.desk.words import COMMANDS
-from pico.server.routes.admitting import needs, routed
+from pico.server.routes.admitting import needs, routed, while_known
 from pico.server.routes.people import Body
 
 router = routed()
@@ -52,7 +52,7 @@ def _route(name: str) -> None:
         if asked.detach:
             return JSONResponse({"run": job.about.id}, 202)
         headers = {"x-pico-run": job.about.id} if command.lasting else None
-        return StreamingResponse(desks.followed(job), headers=headers, media_type=NDJSON)
+        return StreamingResponse(while_known(request, me, desks.followed(job)), headers=headers, media_type=NDJSON)
 
     lasts = " It goes on though nobody listens; `x-pico-run` names it." if command.lasting else ""
     said = (
@@ -86,7 +86,8 @@ async def one_of_them(request: Request, lab: str, run: str) -> dict[str, Any]:
 async def events(request: Request, lab: str, run: str, since: Annotated[int, Query(ge=0)] = 0) -> Response:
     """Follow one of them: the lines that it says after the first `since`, last how it ended."""
     job = _run(request, lab, run)
-    return StreamingResponse(_desks(request).followed(job, since), media_type=NDJSON)
+    lines = while_known(request, request.state.principal, _desks(request).followed(job, since))
+    return StreamingResponse(lines, media_type=NDJSON)
 
 
 @router.delete(f"{AT}/runs/{{run}}", **needs("operator"))

@@ -58,7 +58,7 @@ async def _tell(socket: WebSocket, admitted: Admitted, held: Books, since: int, 
             await socket.send_json({"hello": await held.do(_hello, held)})
             while True:
                 news.clear()
-                for event in await held.do(_after, held, since):
+                for event in await held.look(_after, held, since):
                     since = event["number"]
                     if admitted.principal().sees(event["bench"].partition("/")[0]):
                         await socket.send_json(event)

@@ -35,6 +35,12 @@ class Books:
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._writer, lambda: work(*arguments, **options))
 
+    async def look(self, work: Callable[P, T], *arguments: P.args, **options: P.kwargs) -> T:
+        """Read what is there: at once from a file, which waits for no writer, and as `do` from elsewhere."""
+        if self.database.local:
+            return work(*arguments, **options)
+        return await self.do(work, *arguments, **options)
+
     def listen(self, listener: Listener) -> Callable[[], None]:
         """Have somebody told of changes of leases from now on; return what ends that."""
         self._listeners.append(listener)

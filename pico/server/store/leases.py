@@ -97,14 +97,16 @@ class Leases:
         return self.turn(bench, change)
 
     def due(self) -> tuple[str, ...]:
-        """Return the benches of which a lease is over, or that are free and waited for."""
+        """Return the benches of which a lease is over, or that are free and waited for; without those that another
+        coordinator has in hand just then."""
         with self._database.reading() as connection:
             now = self._database.now(connection)
             queued = select(waiting.c.bench)
             over = or_(
                 benches.c.expires < now, benches.c.granted.is_(None) & benches.c.bench.in_(queued) & benches.c.met
             )
-            return tuple(connection.execute(select(benches.c.bench).where(over)).scalars())
+            asked = select(benches.c.bench).where(over).with_for_update(skip_locked=True)
+            return tuple(connection.execute(asked).scalars())
 
     def promoted(self, bench: str) -> Turn:
         """End what has lapsed, and give a free bench to the first who waits."""
