@@ -22,8 +22,6 @@ SAFE = ("=closed", ".emission")
 """What may be set whenever: shutters close, and lasers go off."""
 OWN = "the edge"
 """Whose run it is that an edge parks in by itself."""
-LOOKS = 0.5
-"""An arm moves this long at the least after a hand took something [s]."""
 
 
 @dataclass(frozen=True)
@@ -136,7 +134,8 @@ def repeated(setup: Any, log: list[dict[str, Any]], begun: list[Doing], correcti
         if not said.get("takes"):
             continue
         at = said["at"]
-        one = next((d for d in begun if d.operation.robot == said["fingers"] and d.since <= at <= d.until + LATE), None)
+        doing = [d for d in begun if d.operation.robot == said["fingers"] and d.since <= at <= d.until + LATE]
+        one = max(doing, key=lambda d: d.since, default=None)
         if one is None:
             yield f"{said['fingers']} took {said['takes']} with no operation under way"
             continue

@@ -42,8 +42,8 @@ from network_table import REST  # noqa: E402
 
 GOALS = ("E1-3", "C1", "E3-2", "E2-1", "E1-1")
 VICTIMS = ("coordinator", "edge", "edge", "client")
-PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 5.0)
-"""How long something stays killed or frozen, the last longer than a lease lasts [s]."""
+PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 4.5, 6.0)
+"""How long something stays killed or frozen, the last two longer than a lease lasts [s]."""
 SPOILT = {"link": ("deaf", "dumb", "slow", "cut", "pulled"), "line": ("deaf", "dumb", "slow", "cut")}
 SPOILS = 0.3
 """How often a link goes wrong before a fault."""
@@ -51,7 +51,7 @@ TOGETHER = 8
 """Faults before everything is healed."""
 ROUNDS = 4
 """So often on one table, before a new one is made."""
-ENDS = 120.0
+ENDS = 200.0
 """Seconds in which a run ends once all is healed, and another one is made [s]."""
 
 
@@ -63,7 +63,7 @@ class Client:
         self.child = self._start()
 
     def _start(self) -> int:
-        return command(self._network.checkout, "apply", self.goal, "--auto-approve", "--lock-timeout", "30")
+        return command(self._network.checkout, "apply", self.goal, "--auto-approve", "--lock-timeout", "100")
 
     def ended(self) -> bool:
         """Whether it has ended, which it is remembered for."""
@@ -183,7 +183,7 @@ def healed(network: Network, client: Client, told: str) -> list[str]:
         client.hit(signal.SIGKILL)
         os.waitpid(client.child, 0)
         return [f"{client.goal}: the client did not end after {told}"]
-    for words in (("apply", client.goal, "--auto-approve", "--lock-timeout", "30"),
+    for words in (("apply", client.goal, "--auto-approve", "--lock-timeout", "100"),
                   ("plan", client.goal, "--detailed-exitcode")):  # fmt: skip
         last = Client.__new__(Client)
         last.codes, last.child = Counter(), command(network.checkout, *words, out="again.txt")

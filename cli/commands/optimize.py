@@ -28,6 +28,10 @@ def optimize(
     goal: Annotated[list[str] | None, typer.Argument(metavar="GOAL", help="A goal of `lab.yaml`, or as below.")] = None,
     algorithm: Annotated[str | None, typer.Option("--algorithm", metavar="NAME", help="Instead of the chosen.")] = None,
     plot: Annotated[Path | None, typer.Option("--plot", metavar="PNG", help="Draw how it went.")] = None,
+    offline: Annotated[
+        float | None,
+        typer.Option("--offline", metavar="SECONDS", help="Go on so long where the bench is cut off."),
+    ] = None,
     by_arm: Annotated[bool, typer.Option("--by-arm", help="`centre`: the arm puts the part down anew.")] = False,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
@@ -38,7 +42,9 @@ def optimize(
 
     The best is kept. Without a goal those that there are are listed: `goals:` of `lab.yaml`, and ready made ones
     with the words that they take (`centre PART CAMERA`, `through IRIS IRIS`, `fibre COUPLER`). Ctrl-C ends at the
-    best point. The exit code is 6 where the goal was not met; `pico undo` goes back.
+    best point; so does a bench that is cut off from its coordinator, once its lease is over and what `--offline` (or
+    `offline` in the goal's `budget`) says is spent. The exit code is 6 where the goal was not met; `pico undo` goes
+    back.
 
     Examples:
       pico optimize centre ly_150 cam
@@ -47,6 +53,8 @@ def optimize(
       pico optimize centred --dry-run
       pico optimize centre lens camera --by-arm
     """
+    from pico.diagnostics import PicoError, error
+
     session = Session.of(context)
     bench = session.bench(fidelity, None, writing=bool(goal) and not dry_run)
     if not goal:
@@ -55,8 +63,12 @@ def optimize(
         session.show(goals_view, bench.goals.named, bench.goals.alignments(), takes())
         return 0
     if by_arm:
+        if offline is not None:
+            raise PicoError(error("usage", "--offline goes with goals that motors reach, and not with --by-arm"))
         return _by_arm(session, bench, goal, dry_run, auto_approve)
-    return _optimize(session, bench, bench.goals.chosen(goal, algorithm=algorithm), plot, dry_run, auto_approve)
+    return _optimize(
+        session, bench, bench.goals.chosen(goal, algorithm=algorithm, offline=offline), plot, dry_run, auto_approve
+    )
 
 
 def _by_arm(session: Session, bench: Bench, goal: list[str], dry_run: bool, auto_approve: bool) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -102,15 +102,21 @@ class Goals:
 
         return standing(self.opened, self.opened.observe(), self.opened.folder.state_now())
 
-    def chosen(self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None) -> Chosen:
+    def chosen(
+        self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None,
+        offline: float | None = None,
+    ) -> Chosen:  # fmt: skip
         """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;
-        and the algorithm, `algorithm` where that is said. Raises PicoError for what is wrong with it."""
+        and the algorithm, `algorithm` where that is said. `offline`: how long it may go on where the bench is cut off
+        from its coordinator [s], instead of what its budget says. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
         from pico.optimize.registry import made
         from pico.planning.sought import stages
 
         setup, seen = self.opened.setup, self.opened.observe()
         found = Ready(name, words) if isinstance(words, Goal) else self._of(list(words))
+        if offline is not None:
+            found = replace(found, goal=replace(found.goal, budget=replace(found.goal.budget, offline=offline)))
         for label, goal in (*found.first, (found.name, found.goal)):
             require_goal(setup, label, goal)
         one, first = stages(setup, seen, found, algorithm)

@@ -118,8 +118,7 @@ class Job:
     `resumes`: the run of this id goes on, which is known. `stop_on_error`: the first failure lets nothing more start.
     `filmed`: what moves is kept for a film. `wait`: so long it waits for the bench where somebody has it [s].
     `speed`: share of the joint limits that the plan was made for, instead of the lab's. `within`: the id of the open
-    run that this is a step of, see `Edge.open`. `offline`: so long its optimizations may go on beyond the lease where
-    the edge is cut off from its coordinator [s]; a minute at most.
+    run that this is a step of, see `Edge.open`.
     """
 
     plan: Plan
@@ -130,7 +129,6 @@ class Job:
     wait: float = 0.0
     speed: float | None = None
     within: str | None = None
-    offline: float = 0.0
 
 
 class Edge(Protocol):

@@ -16,10 +16,12 @@ Looks = Mapping[str, Mapping[str, Value]]
 
 @record
 class Budget:
-    """What an optimization may spend: measurements, and seconds on the bench's clock."""
+    """What an optimization may spend: measurements, and seconds on the bench's clock. `offline`: how long it may go on
+    by itself where its bench is cut off from the coordinator and the lease is over [s]; it ends then, without it."""
 
     measurements: int = 60
     seconds: float = 600.0
+    offline: float | None = None
 
 
 @record

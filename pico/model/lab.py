@@ -209,7 +209,8 @@ class Policy:
     leaves; what the beam audit finds is then only told. `arming`: who may let lasers above class 2 emit; nobody,
     without it. `calibrated_for`: how long a calibration of the cameras counts (`90 d`). `align`: whether an
     apply redoes the goals whose light it changes, or that are not aligned: `always`, or only where it is `asked` with
-    --align."""
+    --align. `offline`: the longest that an optimization whose `budget` says so may go on where the bench is cut off
+    from its coordinator [s]; a minute at most, and without it."""
 
     open_beam: bool = False
     enclosed: bool | None = None
@@ -220,6 +221,7 @@ class Policy:
     arming: ArmingPolicy | None = None
     align: Literal["always", "asked"] | None = None
     calibrated_for: str | None = None
+    offline: float | None = None
 
 
 @record

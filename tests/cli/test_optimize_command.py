@@ -108,6 +108,7 @@ def test_without_a_goal_they_are_listed_and_a_dry_run_moves_nothing(placed: Path
         (("centre", "ly_150", "p1"), "p1 does not measure a centroid"),
         (("centred", "--algorithm", "malus"), "malus takes 1 tunables, not 2"),
         (("centred", "--algorithm", "newton"), "there is no algorithm `newton`"),
+        (("centred", "--offline", "61"), "a bench goes on by itself for 60 s at most, not for 61 s"),
     ],
 )
 def test_what_makes_no_sense_is_refused_before_anything_is_asked(
@@ -129,6 +130,7 @@ def test_what_makes_no_sense_is_refused_before_anything_is_asked(
         ("reach: {", "maximize: cam.power\n    reach: {", "exactly one of"),
         ("valid_for: 12 h", "valid_for: 12 mm", "is a length"),
         ("measurements: 20", "measurements: 0", "the budget is for nothing"),
+        ("measurements: 20", "offline: 90", "a bench goes on by itself for 60 s at most, not for 90 s"),
         (
             "reach: {cam.centroid.x: 0, cam.centroid.y: 0}",
             "minimize: cam.power / 0",

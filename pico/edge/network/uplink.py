@@ -27,6 +27,7 @@ from pico.edge.network import messages
 from pico.edge.network.enrolment import Enrolment
 from pico.edge.network.granting import Granting, acting
 from pico.edge.network.lapsing import left_safely
+from pico.edge.network.offline import offline
 from pico.edge.network.settling import settled
 from pico.model.record import as_json
 
@@ -253,7 +254,7 @@ class Uplink:
         """Write what a command was answered; one that started a run ends with that."""
         if name == "start" and "value" in answer and self._edge.goes_on_with(answer["value"]):
             self._run = (str(answer["value"]), key, arguments[0].within is not None)
-            self.granting.declared(arguments[0].offline)
+            self.granting.declared(offline(self._edge.setup, arguments[0].plan))
         else:
             self.granting.ended(key, answer)
         self._news.set()
@@ -262,6 +263,7 @@ class Uplink:
         """End the command whose run is over."""
         if self._run is not None and not self._edge.goes_on_with(self._run[0]):
             (run, key, _), self._run = self._run, None
+            self.granting.declared(0.0)
             self.granting.ended(key, {"value": run})
             self._news.set()
 

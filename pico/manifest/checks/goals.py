@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import Expression, ExpressionError, Language
-from pico.manifest.checks.own_parameters import lasting
+from pico.manifest.checks.own_parameters import lasting, unattached
 from pico.model.goal import Goal, Looks
 from pico.model.quantities import Value
 from pico.model.setup import Setup
@@ -33,6 +33,8 @@ def goal_errors(setup: Setup, goals: Mapping[str, Goal]) -> Iterator[tuple[tuple
             yield (name, "algorithm"), error("algorithm", f"there is no algorithm `{goal.algorithm[:40]}`", hint=hint)
         if goal.budget.measurements < 1 or goal.budget.seconds <= 0:
             yield (name, "budget"), error("value", "the budget is for nothing", hint="expected 1 measurement or more")
+        if goal.budget.offline is not None and (wrong := unattached(goal.budget.offline)):
+            yield (name, "budget"), wrong
         if goal.valid_for is not None and (wrong := lasting(goal.valid_for)):
             yield (name, "valid_for"), wrong
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.checks.cameras import check_cameras, check_view
-from pico.manifest.checks.own_parameters import lasting
+from pico.manifest.checks.own_parameters import lasting, unattached
 from pico.manifest.checks.trims import check_own_trims
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
@@ -38,6 +38,8 @@ def _policy(document: Document, lab: Lab) -> Iterator[Diagnostic]:
     lasts = lab.policy.calibrated_for
     if lasts is not None and (wrong := lasting(lasts, "calibrated_for")):
         yield replace(wrong, source=where(document, "policy", "calibrated_for"))
+    if lab.policy.offline is not None and (wrong := unattached(lab.policy.offline)):
+        yield replace(wrong, source=where(document, "policy", "offline"))
 
 
 def check_setup(document: Document, setup: Setup) -> list[Diagnostic]:

@@ -66,6 +66,16 @@ def lasting(text: str, what: str = "valid_for") -> Diagnostic | None:
         return error("value", f"{what}: {exc}", hint="`12 h`, `365 d`")
 
 
+def unattached(seconds: float) -> Diagnostic | None:
+    """Return what is wrong with how long a bench may go on by itself [s]; None for nothing."""
+    from pico.control.gate import OFFLINE
+
+    if 0.0 <= seconds <= OFFLINE:
+        return None
+    text = f"a bench goes on by itself for {OFFLINE:g} s at most, not for {seconds:g} s"
+    return error("value", text, hint=f"`offline` is 0 to {OFFLINE:g}, in seconds")
+
+
 def _restores(document: Document, setup: Setup, name: str, given: Mapping[str, Restore]) -> Iterator[Diagnostic]:
     kinds, goals = setup.catalog[setup.lab.inventory[name].type].tunables, setup.lab.goals or {}
     for tunable, one in given.items():
