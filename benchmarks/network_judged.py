@@ -123,6 +123,11 @@ def late(
             yield f"{said['moves']} moved until {said['until'] - awake:.1f} s after lease {doing[0].token} was over"
 
 
+def overtaken(begun: list[Doing], expiries: Mapping[int, float]) -> int:
+    """Return how many operations were under way when their lease was over: so often what follows then was tried."""
+    return sum(not one.own and one.since < expiries.get(one.token, math.inf) < one.until for one in begun)
+
+
 def repeated(setup: Any, log: list[dict[str, Any]], begun: list[Doing], corrections: int = 2) -> Iterator[str]:
     """Yield what was done again: a part that a hand took where it was to be brought, by an operation that had not
     brought it there itself, and one taken more often than it is corrected."""

@@ -127,8 +127,9 @@ def seen(network: Network) -> Seen:
 
 def wrong(
     network: Network, expiries: Expiries, before: Mapping[str, tuple[str, object]], faults: list[judged.Fault]
-) -> dict[str, list[str]]:
-    """Return what went against the rules, by rule: `before` is where the parts were at first."""
+) -> tuple[dict[str, list[str]], int]:
+    """Return what went against the rules, by rule, and how many operations outlasted their lease: `before` is where the
+    parts were at first."""
     from pico.history.lab.folder import LabFolder
 
     until(lambda: False, 3 * REST)  # the log is written once something has come to rest
@@ -148,7 +149,7 @@ def wrong(
         "without an operation": list(judged.unjournaled(log, begun)) if network.emulated else [],
         "out of order": [] if tokens == sorted(tokens) else [str(tokens)],
         "not ended": [*known.unsettled, *known.unanswered],
-    }
+    }, judged.overtaken(begun, expiries.known)
 
 
 def fault(network: Network, client: Client, draw: random.Random, longest: float) -> judged.Fault:
@@ -202,7 +203,7 @@ def table(folder: Path, draw: random.Random, count: Counter[str], given: argpars
     faults: list[judged.Fault] = []
     network.start()
     expiries = Expiries(network.books)
-    found: dict[str, list[str]] = {}
+    found, overtaken = dict[str, list[str]](), 0
     try:
         network.ready()
         before = places(network)
@@ -215,9 +216,11 @@ def table(folder: Path, draw: random.Random, count: Counter[str], given: argpars
             told = ", ".join(f"{f.victim} {f.deed} {f.until - f.since:.1f} s" for f in faults[-TOGETHER:])
             unreached = healed(network, client, told)
             count["applies"] += sum(client.codes.values())
-            found = {"not ended or not reached": unreached, **wrong(network, expiries, before, faults)}
+            broken, overtaken = wrong(network, expiries, before, faults)
+            found = {"not ended or not reached": unreached, **broken}
             if any(found.values()) or count["faults"] >= given.faults:
                 break  # what comes after it stands on a table that is not right
+        count["overtaken"] += overtaken
         if given.keep and any(found.values()):
             keep(network, faults, expiries, given.keep)
         return found
@@ -275,13 +278,14 @@ def main() -> int:
             count.update(counted)
             for rule, n in broken.items():
                 found[rule] = found.get(rule, 0) + n
-    faults, applies, tables = count.pop("faults"), count.pop("applies"), count.pop("tables")
+    faults, applies, tables, overtaken = (count.pop(n) for n in ("faults", "applies", "tables", "overtaken"))
     what = ", ".join(f"{name} {n}" for name, n in sorted(count.items()))
     rules = ", ".join(f"{n} {rule}" for rule, n in found.items())
     spent, kind = time.monotonic() - began, "simulated" if given.sim else "emulated"
     where = "all in one network namespace" if given.together else "the edge in a network namespace of its own"
-    print(f"{faults} faults ({what}) during {applies} applies over the network ({tables} {kind} tables, {where}): "
-          f"{rules}; {spent:.0f} s, {spent / max(1, faults):.1f} s a fault")  # fmt: skip
+    print(f"{faults} faults ({what}) during {applies} applies over the network ({tables} {kind} tables, {where}; "
+          f"{overtaken} operations were under way when their lease was over): {rules}; {spent:.0f} s, "
+          f"{spent / max(1, faults):.1f} s a fault")  # fmt: skip
     return 1 if any(found.values()) else 0
 
 

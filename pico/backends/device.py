@@ -82,10 +82,12 @@ class Device(Protocol):
         """
         ...
 
-    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+    async def take(self, token: int, tell: Callable[[Event], None], require: Callable[[], None]) -> None:
         """Get ready to move: until `leave`, nobody else does. `tell` hears of the start and progress of operations.
 
-        `token` is that of the lease. Raises PicoError where the bench is not fit to be moved.
+        `token` is that of the lease; `require` raises PicoError where that is over, and is asked in the middle of an
+        operation, too, by what goes on while nobody sees that: where a process was frozen that leads a real bench.
+        Raises PicoError where the bench is not fit to be moved.
         """
         ...
 

@@ -364,7 +364,7 @@ class LocalEdge:
                 if run != ADOPTING or exc.diagnostics[0].code != own_lab.CODE:
                     raise
             prepare()
-            await self.device.take(lease.token, self._heard)
+            await self.device.take(lease.token, self._heard, lambda: self._require(under_way=True))
             aligning = Aligning(self.setup, self.root, self.device, self._stops, self._heard)
             surveying = Surveying(self.setup, aligning, self.device, self._stops, self._heard)
             doing = Teleoperating(self.setup, surveying, self.device, self._stops, self._heard)

@@ -99,7 +99,7 @@ class InstantDevice:
     async def observe(self) -> Observation:
         return self.table.observe()
 
-    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+    async def take(self, token: int, tell: Callable[[Event], None], require: Callable[[], None]) -> None:
         """Nobody else has the file."""
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:

@@ -226,7 +226,7 @@ class HardwareDevice:
 
     # moving
 
-    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
+    async def take(self, token: int, tell: Callable[[Event], None], require: Callable[[], None] = lambda: None) -> None:
         """Get the arms ready: faults that may be cleared are, limits, load and collision detection are set and read
         back. Raises PicoError."""
         bench, most = await self.links.instruments(), await self.most()
@@ -244,6 +244,7 @@ class HardwareDevice:
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.root, bench).image,
             keep=self._settings.put, untried=self.links.untried(), most=most,
+            require=require,
         )  # fmt: skip
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:

@@ -45,18 +45,19 @@ class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
     `now`: the bench's clock [s]; `keep`: keeps what was commanded and nobody reads, None where nobody knows it any
     more; `untried`: robots whose driver was never tried on a device; `most`: the greatest speed of tools [mm/s], where
-    a person may be near."""
+    a person may be near; `require`: see `pico.backends.device.Device.take`."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
         tell: Callable[[Event], None], now: Callable[[], float], pause: Callable[[float], Awaitable[None]],
         measure: Measuring, image: Callable[[str], Awaitable[Reading]], keep: Callable[[str, Value | None], None],
         untried: frozenset[str] = frozenset(),
-        most: float | None = None,
+        most: float | None = None, require: Callable[[], None] = lambda: None,
     ) -> None:  # fmt: skip
         self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
         self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
         self._keep, self._untried, self._moved, self._most = keep, untried, set[str](), most
+        self._require_lease = require
         self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
@@ -306,7 +307,7 @@ class HardwareSession:
             self._require_running()
             data = {"phase": stage.segment, "fraction": path.gone(stage) / path.seconds if path.seconds else 1.0}
             self._tell("operation_progress", operation, key, data)
-            if self._halting:
+            if self._halting or self._lease_over():
                 await self._leave(operation, path, stage)
             if stage.segment == "release":
                 await self._asked(self._known.lets_go, path.component or operation.component, path, self._now())
@@ -339,7 +340,7 @@ class HardwareSession:
         """Let a way that is halted go on, or end it before a leg: raises Failed where the part is left where it stands,
         _Back where it is brought back sooner than to its goal."""
         found = way_out(path, stage)
-        if found == "leaves_it":
+        if found in ("leaves_it", "undecided"):  # its fingers are still open
             raise Failed(checks.left(operation.component))
         if found == "may_turn_back":
             start, seen = checks.places(operation)[0], await self._seen()
@@ -375,6 +376,14 @@ class HardwareSession:
     async def _unless_stopped(self, stage: Stage) -> None:
         self._require_running()
 
+    def _lease_over(self) -> bool:
+        """Whether the lease is over: from then on as where it is halted."""
+        try:
+            self._require_lease()
+        except PicoError:
+            self._halting = True
+        return self._halting
+
     def _require_running(self) -> None:
         if self._stopped:
             raise self._ended()
@@ -385,6 +394,7 @@ class HardwareSession:
 
     async def _set(self, operation: Operation, key: str) -> Mapping[str, Any]:
         checks.standing_pose(await self._seen(), operation.component)
+        self._require_lease()
         return await driven(self._setup, self._bench, operation, self._pause)
 
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:

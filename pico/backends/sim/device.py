@@ -172,8 +172,9 @@ class SimDevice:
 
     # moving
 
-    async def take(self, token: int, tell: Callable[[Event], None]) -> None:
-        """Read the table; raises PicoError where its files are broken."""
+    async def take(self, token: int, tell: Callable[[Event], None], require: Callable[[], None] = lambda: None) -> None:
+        """Read the table, which stands still while its process is frozen; raises PicoError where its files are
+        broken."""
         from pico.backends.sim.faults import faults_of
         from pico.backends.sim.session import WorldSession
 

@@ -193,7 +193,7 @@ class Curtain:
 
 def session(
     bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset(), curtain: Curtain | None = None,
-    keep: Callable[[str, Value | None], None] = lambda *_: None,
+    keep: Callable[[str, Value | None], None] = lambda *_: None, require: Callable[[], None] = lambda: None,
 ) -> HardwareSession:  # fmt: skip
     instruments = Instruments()
     if curtain is not None:
@@ -211,6 +211,7 @@ def session(
     return HardwareSession(
         bench.setup, instruments, Known(bench), motion=ArmMotion(bench.setup), arms=arms, tell=lambda event: None,
         now=lambda: 0.0, pause=none, measure=none, image=none, keep=keep, untried=untried,
+        require=require,
     )  # fmt: skip
 
 
@@ -347,6 +348,39 @@ def test_an_arm_that_is_halted_before_it_gripped_leaves_the_part_and_parks(setup
     assert result.error is not None and result.error.code == "put-back"
     assert "left where it stands" in result.error.summary
     assert setup.lab.robots["arm1"].is_parked(bench.joints) and not bench.holding
+
+
+@pytest.mark.parametrize(
+    ("legs", "ends"), [(0, "left"), (1, "left"), (2, "left"), (3, "put back"), (4, "goal"), (5, "goal")]
+)
+def test_what_goes_on_when_its_lease_is_over_comes_to_its_safe_end_though_nobody_halts_it(
+    setup: Setup, legs: int, ends: str
+) -> None:
+    """As an edge that was frozen meanwhile: nothing more is gripped, and what is in the hand is set down."""
+    bench = Bench(setup)
+
+    def require() -> None:
+        if bench.legs >= legs:
+            raise PicoError(error("lease", "the lease 1 is over"))
+
+    result, home = executed(session(bench, require=require), move()), setup.lab.slots[SLOT].pose
+    assert not bench.holding and ("fingers 30" in bench.said) is (ends != "left")
+    if ends == "goal":
+        assert result.outcome == "done" and bench.at.distance(GOAL) < 1e-6
+    else:
+        assert result.error is not None and result.error.code == "put-back" and bench.at.distance(home) < 1e-6
+        assert ends != "left" or setup.lab.robots["arm1"].is_parked(bench.joints)
+
+
+def test_no_axis_begins_to_turn_when_its_lease_is_over(setup: Setup) -> None:
+    bench, axis = Bench(setup), Axis()
+
+    def require() -> None:
+        raise PicoError(error("lease", "the lease 1 is over"))
+
+    result = executed(session(bench, axis, require=require), setting(30.0))
+    assert result.outcome == "failed" and result.error is not None and "lease 1 is over" in str(result.error)
+    assert not axis.told
 
 
 @pytest.mark.parametrize(("leg", "ends"), [(3, "put back"), (5, "goal")])
