@@ -95,6 +95,7 @@ class Served:
         sent = {"authorization": f"Bearer {token}"} if token is not None else {}
         sent |= options.pop("additional_headers", {})
         at = f"ws://127.0.0.1:{self.port}{path}"
+        options.setdefault("max_queue", None)  # one who reads no more must not keep the socket from closing
         return connect(at, additional_headers=sent, open_timeout=30, close_timeout=30, proxy=None, **options)
 
 

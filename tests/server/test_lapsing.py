@@ -15,9 +15,12 @@ from edges import Client, Connected, client, connected, refusal
 from pico.bench.bench import Bench
 from pico.control.leases import TTL
 from pico.diagnostics import ExitCode
+from pico.edge.lease import utc_now
 from pico.edge.network.enrolment import Enrolment
 from pico.edge.protocol import Job
+from pico.edge.remembering import Remembering
 from pico.history.examples.example import make_example
+from pico.model.observation import Observation
 from pico.model.plan import Plan
 
 WAITS = 30.0
@@ -83,11 +86,15 @@ def starts(edge: Connected) -> list[str]:
 
 def parked(edge: Connected) -> bool:
     """Whether all arms are at their place, with nothing in their hands."""
+    robots = edge.edge.setup.lab.robots
+    return all(not one.holding and robots[name].is_parked(one.joints) for name, one in seen(edge).robots.items())
+
+
+def seen(edge: Connected) -> Observation:
+    """What the edge sees now."""
     import asyncio
 
-    seen = asyncio.run_coroutine_threadsafe(edge.edge.observe(), edge.loop).result(WAITS)
-    robots = edge.edge.setup.lab.robots
-    return all(not one.holding and robots[name].is_parked(one.joints) for name, one in seen.robots.items())
+    return asyncio.run_coroutine_threadsafe(edge.edge.observe(), edge.loop).result(WAITS)
 
 
 def test_a_lease_that_is_stolen_ends_the_run_safely_before_the_next_one_begins(
@@ -171,3 +178,25 @@ def test_a_run_that_was_cut_short_with_its_edge_is_known_afterwards_and_not_begu
         assert starts(again) == moved
         missing = refusal(anna, "report", "r1")
         assert missing.diagnostics[0].code == "no-run" and missing.exit_code == ExitCode.ERROR
+
+
+def test_an_edge_that_was_killed_during_a_run_closes_shutters_when_it_comes_back(
+    coordinator: Served, root: Path
+) -> None:
+    with Bench.open(root) as bench:
+        bench.apply("e1")
+        assert lit(bench.observe())
+    remembers = Remembering(root, utc_now)
+    with connected(coordinator, root) as edge:  # of a run that ended what is as it should be stays
+        until(lambda: edge.uplink._link is not None)
+        assert lit(seen(edge))
+    remembers.journal.begin_run("cut-short", "sha256:0", "pico apply")
+    remembers.begun("cut-short")
+    remembers.close()
+    with connected(coordinator, root) as edge:
+        until(lambda: not lit(seen(edge)))
+
+
+def lit(seen: Observation) -> bool:
+    """Whether light leaves the laser."""
+    return seen.components["laser"].values["shutter"].value == "open"

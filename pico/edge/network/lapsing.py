@@ -18,20 +18,10 @@ WAITS = 30.0
 async def left_safely(edge: LocalEdge, why: str) -> tuple[Diagnostic, ...]:
     """Take the bench, and bring it to where it may stay; return what could not be."""
     from pico.edge.running import new_run_id
-    from pico.edge.shutting import Shutting
     from pico.motion.deferred import DeferredMotion
     from pico.planning import Planner, park
-    from pico.policy.arming import lasers
 
-    wrong: list[Diagnostic] = []
-    try:
-        lease = await edge.acquire(WHO, WAITS)
-        try:
-            wrong += await Shutting(edge).shut(tuple(lasers(edge.setup)), why)
-        finally:
-            await edge.release(lease)
-    except PicoError as exc:
-        wrong += exc.diagnostics
+    wrong = [*await shut(edge, why)]
     try:
         seen, robots = await edge.observe(), edge.setup.lab.robots
         if all(not one.holding and robots[name].is_parked(one.joints) for name, one in seen.robots.items()):
@@ -50,3 +40,19 @@ async def left_safely(edge: LocalEdge, why: str) -> tuple[Diagnostic, ...]:
                 held = f" and holds {one.holding}" if one.holding else ""
                 wrong.append(error("lapsed", f"{name} stands where it stopped{held}", hint="`pico recover`"))
     return tuple(wrong)
+
+
+async def shut(edge: LocalEdge, why: str) -> tuple[Diagnostic, ...]:
+    """Take the bench, close its shutters and switch its lasers off; return what could not be. Who takes it finds out
+    about what was cut short, too."""
+    from pico.edge.shutting import Shutting
+    from pico.policy.arming import lasers
+
+    try:
+        lease = await edge.acquire(WHO, WAITS)
+        try:
+            return tuple(await Shutting(edge).shut(tuple(lasers(edge.setup)), why))
+        finally:
+            await edge.release(lease)
+    except PicoError as exc:
+        return tuple(exc.diagnostics)

@@ -26,7 +26,7 @@ from pico.edge.local import LocalEdge
 from pico.edge.network import messages
 from pico.edge.network.enrolment import Enrolment
 from pico.edge.network.granting import Granting, acting
-from pico.edge.network.lapsing import left_safely
+from pico.edge.network.lapsing import left_safely, shut
 from pico.edge.network.offline import offline
 from pico.edge.network.settling import settled
 from pico.model.record import as_json
@@ -66,6 +66,8 @@ class Uplink:
         from websockets.exceptions import WebSocketException
 
         settled(self._edge, self.granting)
+        if await self._edge.unended() is not None:  # nobody has had it in hand since
+            self.wrong = await shut(self._edge, "the process of the edge was killed during a run")
         minding, wait = asyncio.create_task(self._mind()), AGAIN[0]
         try:
             while True:
