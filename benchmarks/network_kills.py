@@ -42,8 +42,8 @@ from network_table import REST  # noqa: E402
 
 GOALS = ("E1-3", "C1", "E3-2", "E2-1", "E1-1")
 VICTIMS = ("coordinator", "edge", "edge", "client")
-PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 4.5, 6.0)
-"""How long something stays killed or frozen, the last two longer than a lease lasts [s]."""
+PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 4.5, 5.0, 6.0)
+"""How long something stays killed or frozen, the last three longer than a lease lasts [s]."""
 SPOILT = {"link": ("deaf", "dumb", "slow", "cut", "pulled"), "line": ("deaf", "dumb", "slow", "cut")}
 SPOILS = 0.3
 """How often a link goes wrong before a fault."""
