@@ -42,8 +42,10 @@ from network_table import REST  # noqa: E402
 
 GOALS = ("E1-3", "C1", "E3-2", "E2-1", "E1-1")
 VICTIMS = ("coordinator", "edge", "edge", "client")
-PAUSES = (0.02, 0.1, 0.5, 1.0, 2.0, 4.5, 5.0, 6.0)
-"""How long something stays killed or frozen, the last three longer than a lease lasts [s]."""
+PAUSES, LONG = (0.02, 0.1, 0.5, 1.0, 2.0), (4.5, 5.0, 6.0)
+"""How long something stays killed or frozen: for less long than a lease lasts, or longer [s]."""
+OUTLASTS = {("edge", "frozen"): 0.6, ("coordinator", "killed"): 0.4, ("coordinator", "frozen"): 0.4}
+"""How often it is longer; else 0.2."""
 SPOILT = {"link": ("deaf", "dumb", "slow", "cut", "pulled"), "line": ("deaf", "dumb", "slow", "cut")}
 SPOILS = 0.3
 """How often a link goes wrong before a fault."""
@@ -162,7 +164,8 @@ def fault(network: Network, client: Client, draw: random.Random, longest: float)
         name = draw.choice(sorted(SPOILT))
         ways = [how for how in SPOILT[name] if how != "pulled" or network.cable]
         network.spoil(name, draw.choice(ways))
-    victim, deed, pause = draw.choice(VICTIMS), draw.choice(("killed", "frozen")), draw.choice(PAUSES)
+    victim, deed = draw.choice(VICTIMS), draw.choice(("killed", "frozen"))
+    pause = draw.choice(LONG if draw.random() < OUTLASTS.get((victim, deed), 0.2) else PAUSES)
     client.lives()
     since = time.time()
     if victim == "client":
@@ -256,6 +259,7 @@ def main() -> int:
         print(f"no network namespaces here ({why}): all processes are in one", flush=True)
         given.together = True
     os.environ["PICO_EMULATED_PACE"] = str(given.pace)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # whatever was started is ended then, too
     hasten()
     preload()
     began = time.monotonic()
@@ -266,10 +270,17 @@ def main() -> int:
         for number, result in enumerate(results[1:], start=1):
             child = os.fork()
             if not child:
-                _share(number, shares[number], given, result)
-                os._exit(0)
+                try:
+                    _share(number, shares[number], given, result)
+                finally:
+                    os._exit(0)
             children.append(child)
-        _share(0, shares[0], given, results[0])
+        try:
+            _share(0, shares[0], given, results[0])
+        except BaseException:
+            for child in children:
+                os.kill(child, signal.SIGTERM)
+            raise
         for child in children:
             os.waitpid(child, 0)
         found, count = dict[str, int](), Counter[str]()
