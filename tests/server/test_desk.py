@@ -140,6 +140,29 @@ def test_a_repository_that_somebody_pushed_reaches_nothing_outside_of_the_desk(d
     assert not (tmp_path / "hooked").exists()
 
 
+def test_a_commit_that_comes_from_elsewhere_meets_the_desk(desk: Desked, tmp_path: Path) -> None:
+    dora = desk.served.person("dora", "operator")
+    assert not any(row["edited"] for row in desk.said(dora, "status")[0]["rows"])
+    text = desk.git("show", "main:state/table.yaml")
+    edit = {
+        "base": "web/dora",
+        "message": "eleven",
+        "files": {"state/table.yaml": text.replace("angle: 90", "angle: 11")},
+    }
+    assert desk.served.ask("POST", "/api/labs/shel/edits", dora, edit)[0] == 200
+    rows = {f"{r['component']}.{r['tunable']}": r for r in desk.said(dora, "status")[0]["rows"]}
+    assert rows["p1.angle"]["desired"] == 11.0 and not rows["p1.angle"]["edited"]
+    clone = tmp_path / "clone"
+    subprocess.run(["git", "clone", "-q", "-b", "web/dora", desk.bare, clone], check=True)
+    (clone / "state" / "table.yaml").write_text(text.replace("angle: 90", "angle: 12"))
+    subprocess.run(
+        ["git", "-C", clone, "-c", "user.name=d", "-c", "user.email=d@x", "commit", "-qam", "twelve"], check=True
+    )
+    pushed(clone, desk.bare, "HEAD:web/dora")
+    rows = {f"{r['component']}.{r['tunable']}": r for r in desk.said(dora, "status")[0]["rows"]}
+    assert rows["p1.angle"]["desired"] == 12.0 and not rows["p1.angle"]["edited"]
+
+
 def test_a_small_push_that_names_very_many_files_is_not_checked_out(desk: Desked, tmp_path: Path) -> None:
     def made(*words: str, said: str = "") -> str:
         done = subprocess.run(["git", "--git-dir", desk.bare, *words], input=said, text=True, capture_output=True,

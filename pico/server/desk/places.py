@@ -14,8 +14,8 @@ from pico.server.git.hosting import environment, git
 
 MOST_FILES, MOST_BYTES = 20_000, 512 << 20
 """Files, and their bytes, of a revision that is checked out here."""
-KEPT = 12
-"""How many worktrees of revisions are kept that nobody uses."""
+KEPT = 40
+"""How many worktrees of revisions are kept: more than there are commands at once."""
 
 
 def desk_of(bare: Path, places: Path, who: str) -> Path:

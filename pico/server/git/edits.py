@@ -43,8 +43,24 @@ def committed(path: Path, who: str, base: str, files: Mapping[str, str | None], 
     signature = pygit2.Signature(who, f"{who}@pico.invalid")
     tree = index.write_tree(repository)
     commit = repository.create_commit(None, signature, signature, message, tree, [parent.id])
+    if before is not None and (desk := _checked_out(path, branch)):
+        try:
+            git("-C", desk, "read-tree", "-m", "-u", str(before), str(commit))
+        except PicoError as exc:
+            hint = "commit there first, or edit there"
+            text = f"the desk of {branch} has edits of its own in these files"
+            raise PicoError(error("stale", text, hint=hint), ExitCode.STALE) from exc
     git("--git-dir", str(path), "update-ref", f"refs/heads/{branch}", str(commit), str(before or _NONE))
     return {"commit": str(commit), "branch": branch, "parent": str(parent.id)}
+
+
+def _checked_out(path: Path, branch: str) -> str | None:
+    """Return the worktree that a branch is checked out in."""
+    for one in git("--git-dir", str(path), "worktree", "list", "--porcelain").split("\n\n"):
+        lines = one.splitlines()
+        if f"branch refs/heads/{branch}" in lines:
+            return lines[0].removeprefix("worktree ")
+    return None
 
 
 def _revision(repository: Any, base: str) -> Any:
