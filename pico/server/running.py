@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import signal
 import socket
 import threading
@@ -58,6 +59,12 @@ def configured(app: Any, **more: Any) -> uvicorn.Config:
 
 
 class _Server(uvicorn.Server):
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Begin; what is loaded by now stays, and nobody looks through it for garbage while others wait."""
+        await super().startup(sockets)
+        gc.collect()
+        gc.freeze()
+
     @contextmanager
     def capture_signals(self) -> Iterator[None]:
         """Let SIGINT and SIGTERM end the serving, and nothing else: it has ended then as it should."""

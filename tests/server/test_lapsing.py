@@ -22,6 +22,7 @@ from pico.edge.remembering import Remembering
 from pico.history.examples.example import make_example
 from pico.model.observation import Observation
 from pico.model.plan import Plan
+from pico.server.store.ordered import read_events
 
 WAITS = 30.0
 
@@ -141,6 +142,7 @@ def test_an_edge_that_is_cut_off_parks_when_its_lease_is_over_and_starts_nothing
 ) -> None:
     begun(anna, planned[1])
     granting, real = edge.uplink.granting, edge.uplink.granting.clock
+    there = edge.uplink._enrolment
     edge.uplink._enrolment = lost(edge)
     edge.cut()
     granting.clock = lambda: real() + TTL + 1.0
@@ -152,6 +154,16 @@ def test_an_edge_that_is_cut_off_parks_when_its_lease_is_over_and_starts_nothing
     assert late <= {"the edge"}
     started = [r for r in memory.records(run="r1") if r.kind == "started"]
     assert len(started) < len(planned[1].operations)
+    edge.uplink._enrolment, granting.clock = there, real
+    until(lambda: left(coordinator) == [[]])
+    until(lambda: edge.uplink._left is None)
+    assert left(coordinator) == [[]], "it is told once"
+
+
+def left(coordinator: Served) -> list[list[str]]:
+    """What could not be done, each time that the bench was left because its lease was over, as those who watch hear."""
+    with coordinator.books.database.reading() as connection:
+        return [event["data"]["wrong"] for event in read_events(connection, 0) if event["kind"] == "left"]
 
 
 def lost(edge: Connected) -> Enrolment:

@@ -7,6 +7,7 @@ connection ends, and what it waits for is waited for no more.
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import signal
 from collections.abc import AsyncIterator, Callable, Coroutine
@@ -123,6 +124,8 @@ async def serve(
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, ended.set)
     await server.open()
+    gc.collect()
+    gc.freeze()  # what is loaded by now stays: nobody looks through it for garbage while others wait
     try:
         ready()
         tasks = [asyncio.create_task(_mind(edge)), *([asyncio.create_task(beside())] if beside else ())]

@@ -3,7 +3,8 @@ what it is told under that lease, and once it is over brings the bench to where 
 
 After both have shown that they have the key, the edge says `{"hello"}` and asks every second, and whenever something
 changed, `{"poll": {"asked", "fenced", "moving"}}`; it is answered `{"lease": {"asked", "token", "left"}}`. Without
-`asked` that is a hint to ask at once. A call says whom it is `by`, and the `command` that it is where it needs a lease.
+`asked` that is a hint to ask at once. How the bench was left when a lease was over it says (`left`) until that is
+heard. A call says whom it is `by`, and the `command` that it is where it needs a lease.
 """
 
 from __future__ import annotations
@@ -60,6 +61,8 @@ class Uplink:
         self._run: tuple[str, str, bool] | None = None  # what a command started, its key, whether in an open run
         self.wrong: tuple[Diagnostic, ...] = ()
         """What could not be done when a lease was over."""
+        self._left: Document | None = None  # how the bench was left then, and by which question that was told
+        self._left_told = 0
 
     async def run(self) -> None:
         """Dial, and dial again, for ever."""
@@ -148,7 +151,9 @@ class Uplink:
         self._news.clear()
         self._asked[number] = self.granting.clock()
         self._asked.pop(number - LATE, None)
-        await link.send(messages.text({"poll": {"asked": number, **self._state()}}))
+        left = {} if self._left is None else {"left": self._left}
+        self._left_told = self._left_told or (number if left else 0)
+        await link.send(messages.text({"poll": {"asked": number, **self._state(), **left}}))
 
     def _state(self) -> Document:
         """Return what the coordinator is told: for which token the bench is fenced, how many commands of it were taken
@@ -164,6 +169,8 @@ class Uplink:
                 self._news.set()
             elif (asked := self._asked.pop(int(lease["asked"]), None)) is not None:
                 self.granting.heard(int(lease["token"]), float(lease["left"]), asked)
+                if 0 < self._left_told <= int(lease["asked"]):  # how the bench was left is known there
+                    self._left, self._left_told = None, 0
         elif said.get("close"):
             await self._let_go(str(said["id"]))
         elif "call" in said:
@@ -302,6 +309,8 @@ class Uplink:
         await self._over()
         self._news.set()
         self.wrong = await left_safely(self._edge, "the lease of its bench is over")
+        self._left, self._left_told = {"at": self._edge.now(), "wrong": as_json(self.wrong)}, 0
+        self._news.set()
 
 
 def _version() -> str:

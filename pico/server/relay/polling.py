@@ -9,6 +9,7 @@ from pico.control.leases import HEARTBEAT, TTL, Grant, Lease, left
 from pico.server.relay.hub import EdgeLine
 from pico.server.store.books import Books
 from pico.server.store.commands import CommandRows
+from pico.server.store.ordered import write_event
 
 
 class Polled:
@@ -21,6 +22,9 @@ class Polled:
         """Return which token counts, and how long still. What an edge says of itself is of when it asked."""
         books, line, bench = self._books, self._line, self._line.bench
         line.fenced, line.moving = int(poll["fenced"]), str(poll["moving"] or "")
+        if poll.get("left"):
+            await books.do(self._left, str(poll["left"]["at"])[:40], list(poll["left"]["wrong"])[:20])
+            books.announce()
         row, now, _ = await books.look(books.leases.shown, bench)
         if not self._met or _tells(row, line.fenced):
             row, self._met = (await books.turn(books.leases.heard, bench, line.fenced)).row, True
@@ -38,6 +42,13 @@ class Polled:
         _, now, _ = await books.look(books.leases.shown, bench)
         token, seconds = left(row, now)
         return {"lease": {"asked": poll["asked"], "token": token, "left": seconds}}
+
+    def _left(self, at: str, wrong: list[Any]) -> None:
+        """Write how an edge left its bench when the lease of that was over."""
+        database = self._books.database
+        with database.writing() as connection:
+            said = [str(one["summary"])[:300] for one in wrong]
+            write_event(connection, database.now(connection), self._line.bench, "left", {"at": at, "wrong": said})
 
 
 def _goes_on(grant: Grant, run: str) -> bool:
