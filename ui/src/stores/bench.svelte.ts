@@ -1,6 +1,6 @@
 /** The bench that the page shows: its scene, its line, who has it, and the red button. */
 
-import { ask, filled, Refused, type Path } from "../api/client";
+import { ask, filled, Refused } from "../api/client";
 import { decode, type Frame } from "../live/frame";
 import { Line } from "../live/line";
 import { changed, read, type Scene } from "../twin/scene";
@@ -75,7 +75,7 @@ class Bench {
 
   async #snapshot(): Promise<void> {
     try {
-      this.scene = read(await ask("get", "/api/benches/{lab}/{bench}/scene" as Path, this.at));
+      this.scene = read(await ask("get", "/api/benches/{lab}/{bench}/scene", this.at));
       this.edge = "here";
     } catch (failure) {
       if (failure instanceof Refused && failure.status >= 500) this.edge = "away";

@@ -45,7 +45,7 @@ class Desk {
     const shown = words.join(" ");
     this.busy = [...this.busy, shown];
     try {
-      const body = { words: rest, session: bench.session, bench: bench.name };
+      const body = { words: rest, session: bench.session, bench: bench.at.bench };
       for await (const said of lines<Said>("post", filled(path, { lab: bench.lab }), body, { begun })) {
         if ("exit" in said && !("schema" in said)) answer.exit = (said as { exit: number }).exit;
         else {

@@ -1,6 +1,6 @@
 /** Who looks at the page, and which benches there are for them. */
 
-import { ask, Refused, type Diagnostic, type Path } from "../api/client";
+import { ask, Refused, type Diagnostic } from "../api/client";
 import { address } from "./address.svelte";
 
 export interface Holder { who: string; session: string; since: number; left: number; fenced: boolean; run: string | null; you?: boolean }
@@ -18,7 +18,7 @@ class Session {
   async begin(): Promise<void> {
     const code = /^#code=([\w.-]+)$/.exec(location.hash)?.[1];
     if (code) {
-      history.replaceState(null, "", location.pathname);
+      history.replaceState(null, "", location.pathname + location.search);
       address.now = { ...address.now, bench: null };
       await this.enter({ code });
     } else await this.#look();
@@ -27,7 +27,7 @@ class Session {
   /** Log in with a token, or a code. */
   async enter(said: { secret: string } | { code: string }): Promise<void> {
     try {
-      await ask("post", "/api/session" as Path, {}, said);
+      await ask("post", "/api/session", {}, said);
       await this.#look();
     } catch (failure) {
       this.#refused(failure);
@@ -35,7 +35,7 @@ class Session {
   }
 
   async leave(): Promise<void> {
-    await ask("delete", "/api/session" as Path).catch(() => undefined);
+    await ask("delete", "/api/session").catch(() => undefined);
     this.me = null;
     this.state = "out";
   }

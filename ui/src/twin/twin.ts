@@ -183,7 +183,7 @@ export class Twin {
   view(name: View): void {
     const [w, d] = this.#scene?.table.size ?? [1200, 750];
     const corners = [0, w].flatMap((x) => [0, d].flatMap((y) => [-60, 0].map((z) => new Vector3(x, y, z))));
-    for (const { mount } of this.#scene?.arms ?? []) corners.push(new Vector3(mount.x, mount.y, ARM_HEIGHT));
+    if (name !== "top") for (const { mount } of this.#scene?.arms ?? []) corners.push(new Vector3(mount.x, mount.y, ARM_HEIGHT));
     const from = { iso: [-0.45, -1, 0.85], top: [0, -0.001, 1], front: [0, -1, 0.12], side: [1, -0.05, 0.25] }[name] as Vec;
     this.#follow = false;
     this.#fit(corners, new Vector3(...from).normalize());
@@ -285,6 +285,7 @@ export class Twin {
     this.#controls.target.copy(target);
     this.#camera.position.copy(target).addScaledVector(from, far * 1.06);
     this.#controls.update();
+    this.#camera.updateMatrixWorld();
     this.#dirty = true;
   }
 
@@ -294,6 +295,7 @@ export class Twin {
     this.#controls.target.copy(target);
     this.#camera.position.copy(target).addScaledVector(from, far);
     this.#controls.update();
+    this.#camera.updateMatrixWorld();
     this.#dirty = true;
   }
 

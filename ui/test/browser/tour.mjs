@@ -1,0 +1,150 @@
+/**
+ * The tour of the README by mouse and keyboard, in Chromium, at the address that `pico gui` told:
+ *   node tour.mjs ADDRESS [FOLDER FOR PICTURES]
+ * Ends with an error at the first thing that is not so. Nothing may leave this machine, and nothing may go wrong aloud.
+ */
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { chromium } from "playwright-core";
+
+const FLAGS = [
+  "--no-sandbox", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update",
+  "--disable-sync", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
+];
+const [address, pictures] = process.argv.slice(2);
+const host = new URL(address).host;
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+const context = await browser.newContext({ viewport: { width: 1440, height: 900 }, permissions: ["clipboard-read", "clipboard-write"] });
+const page = await context.newPage();
+page.setDefaultTimeout(20_000);
+const wrong = [];
+let expected = null;
+page.on("console", (said) => { if (["error", "warning"].includes(said.type()) && !expected?.test(said.text())) wrong.push(said.text()); });
+page.on("pageerror", (error) => wrong.push(String(error)));
+page.on("request", (request) => { const { protocol, host: to } = new URL(request.url()); if (protocol.startsWith("http") && to !== host) wrong.push(`asked ${to}`); });
+
+const begun = Date.now();
+async function step(name, work) {
+  await work();
+  console.log(`${((Date.now() - begun) / 1000).toFixed(1).padStart(6)} s  ${name}`);
+  if (pictures) await page.screenshot({ path: `${pictures}/${name.replaceAll(/\W+/g, "-")}.png` });
+}
+const tab = (name) => page.getByRole("tab", { name });
+const panel = page.getByRole("tabpanel");
+const text = (what) => page.getByText(what).first().waitFor();
+const rows = panel.locator("[data-row]");
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+async function accessible(where) {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  const serious = violations.filter(({ impact }) => ["serious", "critical"].includes(impact));
+  assert.deepEqual(serious.map(({ id, nodes }) => `${where}: ${id} ${nodes.map(({ target }) => target)}`), []);
+}
+
+await step("open", async () => {
+  await page.goto(address.replace("/#", "/?lowgpu=1#"));
+  await page.getByRole("button", { name: /^p2/ }).waitFor();
+  await page.waitForFunction(() => window.picoAt?.("p2"));
+  assert.ok(!page.url().includes("code="), "the code is not kept in the address");
+  await accessible("inspect");
+});
+
+await step("pick in the twin", async () => {
+  await page.getByRole("button", { name: "Top", exact: true }).click();
+  const [x, y] = await page.evaluate(() => window.picoAt("cam"));
+  await page.mouse.click(x, y);
+  await panel.getByRole("heading", { name: "cam" }).waitFor();
+});
+
+await step("plan e1", async () => {
+  await page.keyboard.press("2");
+  await page.locator("#revision").fill("e1");
+  await page.keyboard.press("Enter");
+  await text("11 operations");
+  await accessible("plan");
+});
+
+await step("look at a step", async () => {
+  await rows.first().focus();
+  await page.keyboard.press("ArrowDown");
+  await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("Enter");
+  assert.equal(await rows.first().getAttribute("aria-pressed"), "true");
+  assert.match(page.url(), /rev=e1.*op=op1|op=op1.*rev=e1/);
+  await panel.getByRole("button", { name: /^Copy as command/ }).first().click();
+  assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "pico plan e1");
+});
+
+await step("apply", async () => {
+  await panel.getByRole("button", { name: "Apply …" }).click();
+  await page.getByRole("dialog").getByText("A laser is asked to emit.").waitFor();
+  await accessible("apply");
+  await page.getByRole("dialog").getByRole("button", { name: "Apply", exact: true }).click();
+  await page.getByRole("status").getByText(/^done: 11 done/).waitFor();
+  await text("Nothing would move");
+});
+
+await step("runs", async () => {
+  await tab("Runs").click();
+  await rows.first().click();
+  await text("Run 1: apply e1");
+  await accessible("runs");
+});
+
+await step("compare two commits", async () => {
+  await tab("History").click();
+  await rows.filter({ hasText: "E1-3" }).click();
+  await rows.filter({ hasText: "E2-3" }).click({ modifiers: ["Control"] });
+  await panel.getByRole("heading", { name: "E1-3 → E2-3" }).waitFor();
+  await panel.getByText("stowed in storage/a3").waitFor();
+  await accessible("history");
+});
+
+await step("edit a value", async () => {
+  await page.keyboard.press("/");
+  await page.keyboard.type("p1");
+  await page.getByRole("button", { name: /^p1/ }).click();
+  await panel.getByRole("button", { name: "Edit angle" }).click();
+  await panel.getByLabel(/^angle/).fill("3");
+  await panel.getByRole("button", { name: "Write into the manifest" }).click();
+  await panel.getByText("1 edited, in no commit").waitFor();
+  await panel.getByText("+ p1.angle 3 deg").waitFor();
+  await accessible("edit");
+});
+
+await step("commit", async () => {
+  await panel.getByPlaceholder("Why; what moved without it").fill("p1 three degrees from crossed");
+  await panel.getByRole("button", { name: "Commit", exact: true }).click();
+  await panel.getByText("1 edited, in no commit").waitFor({ state: "detached" });
+  await tab("History").click();
+  await rows.filter({ hasText: "p1 three degrees from crossed" }).waitFor();
+});
+
+await step("commands", async () => {
+  await page.keyboard.press("Control+k");
+  await page.getByRole("dialog").getByPlaceholder(/^Find a command/).fill("dark");
+  await accessible("palette");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
+  await accessible("dark");
+});
+
+await step("stop", async () => {
+  await page.keyboard.press("Control+.");
+  await text("Stopped: arms brake");
+});
+
+for (const width of [1000, 420]) {
+  await step(`at ${width}`, async () => {
+    await page.setViewportSize({ width, height: 860 });
+    assert.ok(await page.getByRole("button", { name: "STOP" }).isVisible());
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= width, `${wide} px are wider than ${width}`);
+    await accessible(`at ${width}`);
+  });
+}
+
+assert.deepEqual(wrong, []);
+await browser.close();
+console.log("The tour is over.");
