@@ -23,6 +23,9 @@ export function actions(): Action[] {
     ...(bench.scene?.components ?? []).map((one) => ({ title: `Component ${one.name}`, run: () => address.go("inspect", { part: one.name }) })),
     ...(desk.log?.commits ?? []).flatMap((one) => one.refs).map((ref) => ({
       title: `Plan ${ref}`, run: () => { address.go("plan", { rev: ref }); void desk.think(["plan", ref]); } })),
+    ...(desk.status && desk.status.backend !== "hardware" ? (bench.scene?.components ?? []) : []).filter((one) => one.movable).map((one) => ({
+      title: `Simulator: push ${one.name} by 5 mm`, barred: bench.barred,
+      run: () => void desk.did(["sim", "nudge", one.name, "--dx", "5"]) })),
     { title: "Log out", run: () => void session.leave() },
   ];
 }
