@@ -71,8 +71,15 @@ class Client:
         """Whether it has ended, which it is remembered for."""
         process, status = os.waitpid(self.child, os.WNOHANG)
         if process:
-            self.codes[os.waitstatus_to_exitcode(status)] += 1
+            self.child, self.codes = 0, self.codes + Counter([os.waitstatus_to_exitcode(status)])
         return bool(process)
+
+    def close(self) -> None:
+        """Kill it, where it is still there."""
+        if self.child:
+            os.kill(self.child, signal.SIGKILL)
+            os.waitpid(self.child, 0)
+            self.child = 0
 
     def lives(self) -> None:
         """Start another one where it has ended: to another goal where it came to its own."""
@@ -83,7 +90,8 @@ class Client:
 
     def hit(self, number: int) -> None:
         """Send it a signal, if it is still there."""
-        os.kill(self.child, number)
+        if self.child:
+            os.kill(self.child, number)
 
 
 def places(network: Network) -> dict[str, tuple[str, object]]:
@@ -184,16 +192,15 @@ def healed(network: Network, client: Client, told: str) -> list[str]:
     if not network.ready():
         return [f"coordinator and edge do not find each other after {told}"]
     if not until(client.ended, ENDS):
-        client.hit(signal.SIGKILL)
-        os.waitpid(client.child, 0)
         return [f"{client.goal}: the client did not end after {told}"]
     for words in (("apply", client.goal, "--auto-approve", "--lock-timeout", "100"),
                   ("plan", client.goal, "--detailed-exitcode")):  # fmt: skip
         last = Client.__new__(Client)
         last.codes, last.child = Counter(), command(network.checkout, *words, out="again.txt")
-        if not until(last.ended, ENDS):
-            os.kill(last.child, signal.SIGKILL)
-            os.waitpid(last.child, 0)
+        try:
+            until(last.ended, ENDS)
+        finally:
+            last.close()
         if last.codes[0] != 1:
             said = (network.checkout / "again.txt").read_text()[-1500:]
             return [f"{' '.join(words[:2])} after {told}: {dict(last.codes)}: {said}"]
@@ -207,6 +214,7 @@ def table(folder: Path, draw: random.Random, count: Counter[str], given: argpars
     network.start()
     expiries = Expiries(network.books)
     found, overtaken = dict[str, list[str]](), 0
+    client: Client | None = None
     try:
         network.ready()
         before = places(network)
@@ -218,6 +226,7 @@ def table(folder: Path, draw: random.Random, count: Counter[str], given: argpars
                 count[f"{faults[-1].victim} {faults[-1].deed}"] += 1
             told = ", ".join(f"{f.victim} {f.deed} {f.until - f.since:.1f} s" for f in faults[-TOGETHER:])
             unreached = healed(network, client, told)
+            client.close()
             count["applies"] += sum(client.codes.values())
             broken, overtaken = wrong(network, expiries, before, faults)
             found = {"not ended or not reached": unreached, **broken}
@@ -228,6 +237,8 @@ def table(folder: Path, draw: random.Random, count: Counter[str], given: argpars
             keep(network, faults, expiries, given.keep)
         return found
     finally:
+        if client is not None:
+            client.close()
         expiries.close()
         network.close()
 
