@@ -57,7 +57,7 @@ def create_app(
     )  # fmt: skip
     app.state.books = books
     app.state.desking = desks
-    app.state.sockets = Counter()
+    app.state.sockets, app.state.git = Counter(), Counter()
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
     for router in ROUTERS:
         app.include_router(router)

@@ -13,6 +13,7 @@ from hypothesis.errors import Unsatisfiable
 from schemathesis.generation import GenerationMode
 
 from pico.server.access.principal import ROLES
+from pico.server.live import watching
 from pico.server.relay import dispatch
 
 EXAMPLES = 60
@@ -29,6 +30,7 @@ def coordinator(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Served]:
 def test_no_request_makes_the_coordinator_fail(coordinator: Served, monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("AWAY", "LASTING_AWAY", "FENCES", "HEARTBEAT"):  # there is no edge, nor will there be one
         monkeypatch.setattr(dispatch, name, 0.02)
+    monkeypatch.setattr(watching, "AWAY", 0.02)
     coordinator.bench(BENCH)
     coordinator.loosen()
     root = coordinator.person("root", *ROLES)

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import os
+import socket
 import subprocess
+import time
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +22,7 @@ def git(folder: Path, *words: str, code: int = 0) -> str:
     own = os.environ | {"GIT_CONFIG_NOSYSTEM": "1", "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_TERMINAL_PROMPT": "0"}
     done = subprocess.run(
         ["git", "-c", "user.name=anna", "-c", "user.email=anna@example.org", *words],
-        cwd=folder, capture_output=True, text=True, env=own, check=False,
+        cwd=folder, capture_output=True, text=True, env=own, check=False, timeout=60,
     )  # fmt: skip
     assert done.returncode == code, done.stderr
     return (done.stdout + done.stderr).strip()
@@ -27,6 +30,16 @@ def git(folder: Path, *words: str, code: int = 0) -> str:
 
 def url(served: Served, token: str, lab: str = "shel") -> str:
     return f"http://git:{token}@127.0.0.1:{served.port}/api/git/{lab}"
+
+
+def gits(served: Served) -> list[str]:
+    """Return the processes of git that a coordinator has started and that go on."""
+    found, mark = [], f"GIT_PROJECT_ROOT={served.books.folder}".encode()
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if mark in (process / "environ").read_bytes():
+                found.append(process.name)
+    return found
 
 
 @pytest.fixture
@@ -62,6 +75,57 @@ def test_git_pushes_and_fetches_as_its_role_lets_it(coordinator: Served, checkou
     for words in (("--force", "main"), ("--delete", "main")):
         git(checkout, "push", url(coordinator, operator), *words, code=1)
     git(checkout, "ls-remote", url(coordinator, coordinator.person("root", "admin"), "nowhere"), code=128)
+
+
+def test_a_large_push_arrives_whole(coordinator: Served, checkout: Path) -> None:
+    coordinator.bench()
+    ours = url(coordinator, coordinator.person("anna", "operator"))
+    for more in ((), ("-c", "http.postBuffer=100000000")):
+        (checkout / "noise").write_bytes(os.urandom(5_000_000))
+        git(checkout, "add", ".")
+        git(checkout, "commit", "--quiet", "-m", "noise")
+        git(checkout, *more, "push", "--quiet", ours, "main")
+        assert git(checkout, "ls-remote", ours, "main").split()[0] == git(checkout, "rev-parse", "main")
+
+
+def test_who_goes_in_the_middle_of_a_request_leaves_no_git_behind(coordinator: Served, checkout: Path) -> None:
+    coordinator.bench()
+    anna = coordinator.person("anna", "operator")
+    git(checkout, "push", "--quiet", url(coordinator, anna), "main")
+    head = git(checkout, "rev-parse", "main").encode()
+    told = b"0032want " + head + b"\n00000009done\n"
+    opening = (
+        b"POST /api/git/shel/git-upload-pack HTTP/1.1\r\nHost: 127.0.0.1\r\nAuthorization: Bearer " + anna.encode()
+        + b"\r\nContent-Type: application/x-git-upload-pack-request\r\nTransfer-Encoding: chunked\r\n\r\n"
+    )  # fmt: skip
+    pieces = (b"4\r\n0011\r\n", b"%x\r\n%b\r\n0\r\n\r\n" % (len(told), told))
+    for sent in (*pieces, pieces[0]) * 5:
+        with socket.create_connection(("127.0.0.1", coordinator.port)) as line:
+            line.sendall(opening + sent)
+    for _ in range(500):
+        if not gits(coordinator) and not coordinator.app.state.git.total():
+            break
+        time.sleep(0.02)
+    else:
+        raise AssertionError(f"{gits(coordinator)} go on")
+    assert git(checkout, "ls-remote", url(coordinator, anna)).split()[0].encode() == head
+
+
+def test_a_push_adds_branches_and_tags_of_its_own_and_moves_no_tag(coordinator: Served, checkout: Path) -> None:
+    coordinator.bench()
+    ours = url(coordinator, coordinator.person("anna", "operator"))
+    git(checkout, "push", "--quiet", ours, "main", "main:refs/tags/C1", "main:run/anna/1")
+    git(checkout, "commit", "--quiet", "--allow-empty", "-m", "other")
+    at = git(checkout, "rev-parse", "HEAD~1")
+    refused = ("replace/" + at, "tags/main", "heads/C1", "heads/HEAD", "heads/run/ben/1", "heads/web/ben", "bisect/bad",
+               "notes/x", "pico/x", "tags/C1")  # fmt: skip
+    for ref in refused:
+        git(checkout, "push", "--force", ours, f"main:refs/{ref}", code=1)
+    git(checkout, "push", ours, ":refs/tags/C1", code=1)
+    assert {line.split()[1] for line in git(checkout, "ls-remote", ours).splitlines()} == {
+        "HEAD", "refs/heads/main", "refs/heads/run/anna/1", "refs/tags/C1",
+    }  # fmt: skip
+    assert git(checkout, "ls-remote", ours, "refs/tags/C1").split()[0] == at
 
 
 def test_git_is_asked_for_its_services_alone(coordinator: Served, checkout: Path) -> None:

@@ -59,6 +59,8 @@ def remove(bare: Path, place: Path) -> None:
 
 def commit_of(bare: Path, revision: str | None) -> str:
     """Return the commit of a revision, without one that of the main branch; raises PicoError where there is none."""
+    if revision is not None and (found := _resolved(bare, f"refs/heads/{revision}")):  # a tag may be called so, too
+        return found
     if found := _resolved(bare, revision or "HEAD"):
         return found
     if revision is None:

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
 import subprocess
 import tempfile
+from collections import Counter
 from collections.abc import AsyncIterator, Mapping
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
@@ -32,13 +35,38 @@ _SETTINGS = f"""
   auto = 0
 """
 PIECE = 1 << 16
+AT_ONCE, AT_ONCE_EACH = 24, 6
+"""Requests that git works on at once, of all and of one person."""
+_SLOW = 300.0
+"""Seconds in which the body of a request comes."""
+_UPDATE = """#!/bin/sh
+name="${1#refs/*/}"
+case "$1" in
+refs/tags/*)
+  other="refs/heads/$name"
+  if [ -n "$(echo "$2" | tr -d 0)" ]; then
+    echo "the tag $name is there, and a tag stays what it is: choose another name" >&2
+    exit 1
+  fi ;;
+*) other="refs/tags/$name" ;;
+esac
+if git show-ref --verify --quiet "$other"; then
+  echo "there is $other: choose another name, for a branch and a tag of one can't be told apart" >&2
+  exit 1
+fi
+"""
+"""The hook that a push passes, by reference."""
 
 
 def repository(folder: Path, lab: str) -> Path:
     """Return the bare repository of a lab, made where there is none; raises PicoError."""
     path = folder / "git" / f"{require_name(lab, 'a lab')}.git"
+    hook = folder / "git" / ".hooks" / "update"
+    if not hook.exists():
+        hook.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        hook.write_text(_UPDATE)
+        hook.chmod(0o700)
     if not path.exists():
-        path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=".new-") as new:
             git("init", "--quiet", "--bare", "--initial-branch=main", f"{new}/made")
             with Path(new, "made", "config").open("a") as config:
@@ -58,69 +86,88 @@ def git(*words: str) -> str:
 def environment() -> dict[str, str]:
     """Return what git is started with: nobody's settings but the repository's own."""
     own = {"GIT_CONFIG_NOSYSTEM": "1", "GIT_CONFIG_GLOBAL": os.devnull, "GIT_TERMINAL_PROMPT": "0", "LC_ALL": "C"}
-    return {"PATH": os.environ.get("PATH", os.defpath), "HOME": os.devnull, **own}
+    plain = {"GIT_NO_REPLACE_OBJECTS": "1"}  # a commit is what its id says
+    return {"PATH": os.environ.get("PATH", os.defpath), "HOME": os.devnull, **own, **plain}
 
 
-async def answered(
-    path: Path, request: Mapping[str, str], body: AsyncIterator[bytes]
-) -> tuple[int, dict[str, str], AsyncIterator[bytes]]:
-    """Return status, headers and body of what git answers to a request, as CGI describes it, to the bare repository at
-    `path`; git ends with the body."""
-    found = environment() | {
-        "GIT_PROJECT_ROOT": str(path.parent), "GIT_HTTP_EXPORT_ALL": "1", "GATEWAY_INTERFACE": "CGI/1.1",
-        "PATH_INFO": f"/{path.name}/{request['service']}", **{k: v for k, v in request.items() if k != "service"},
-        **_own_branches(request["REMOTE_USER"]),
-    }  # fmt: skip
-    pipe = asyncio.subprocess.PIPE
-    process = await asyncio.create_subprocess_exec(
-        "git", "http-backend", env=found, stdin=pipe, stdout=pipe, stderr=asyncio.subprocess.DEVNULL
-    )
-    assert process.stdin is not None and process.stdout is not None
-    feeding = asyncio.create_task(_feed(process.stdin, body))
-    headers: dict[str, str] = {}
+@dataclass
+class Answer:
+    """What git answers; `end` is to be called, however it ends."""
+
+    status: int
+    headers: Mapping[str, str]
+    _process: asyncio.subprocess.Process
+    _who: str
+    _busy: Counter[str]
+
+    async def pieces(self) -> AsyncIterator[bytes]:
+        """Yield the body."""
+        assert self._process.stdout is not None
+        while piece := await self._process.stdout.read(PIECE):
+            yield piece
+        await self._process.wait()
+
+    def end(self) -> None:
+        """End git where it goes on."""
+        self._busy[self._who] -= 1
+        _end(self._process)
+
+
+async def answered(path: Path, request: Mapping[str, str], body: AsyncIterator[bytes], busy: Counter[str]) -> Answer:
+    """Return what git answers to a request, as CGI describes it, to the bare repository at `path`. `busy` counts who
+    asks how much at once.
+
+    The whole request is there before git begins: what reads a socket for the sake of its end would else take pieces of
+    it. Raises PicoError where too many ask, or the request is too slow.
+    """
+    who = request["REMOTE_USER"]
+    if busy[who] >= AT_ONCE_EACH or busy.total() >= AT_ONCE:
+        raise PicoError(error("limit", "git works on as much as it may at once", hint="again in a moment"))
+    busy[who] += 1
+    process: asyncio.subprocess.Process | None = None
     try:
+        with tempfile.TemporaryFile() as whole:
+            async with asyncio.timeout(_SLOW):
+                async for piece in body:
+                    whole.write(piece)
+            found = environment() | {
+                "GIT_PROJECT_ROOT": str(path.parent), "GIT_HTTP_EXPORT_ALL": "1", "GATEWAY_INTERFACE": "CGI/1.1",
+                "PATH_INFO": f"/{path.name}/{request['service']}", "CONTENT_LENGTH": str(whole.tell()),
+                **{k: v for k, v in request.items() if k != "service"}, **_limits(path, who),
+            }  # fmt: skip
+            whole.seek(0)
+            process = await asyncio.create_subprocess_exec(
+                "git", "http-backend", env=found, stdin=whole, stdout=asyncio.subprocess.PIPE,
+                stderr=asyncio.subprocess.DEVNULL, start_new_session=True,
+            )  # fmt: skip
+        assert process.stdout is not None
+        headers: dict[str, str] = {}
         while line := (await process.stdout.readline()).decode("latin-1").rstrip("\r\n"):
             name, _, value = line.partition(":")
             headers[name.strip().lower()] = value.strip()
-    except BaseException:
-        await _ended(process, feeding)
+    except BaseException as exc:
+        busy[who] -= 1
+        _end(process)
+        if isinstance(exc, TimeoutError):
+            raise PicoError(error("limit", f"a request to git comes whole within {_SLOW:.0f} s")) from exc
         raise
     status = int(headers.pop("status", "200" if headers else "500").split()[0])
-    return status, headers, _pieces(process, feeding)
+    return Answer(status, headers, process, who, busy)
 
 
-def _own_branches(who: str) -> dict[str, str]:
-    """Return settings by which nobody pushes to `web/NAME` of somebody else."""
-    values = ("refs/heads/web/", f"!refs/heads/web/{who}")
-    pairs = {f"GIT_CONFIG_{what}_{n}": text for n, value in enumerate(values)
-             for what, text in (("KEY", "receive.hideRefs"), ("VALUE", value))}  # fmt: skip
-    return {"GIT_CONFIG_COUNT": str(len(values)), **pairs}
+def _limits(path: Path, who: str) -> dict[str, str]:
+    """Return settings by which branches and tags alone are pushed, and none of somebody else's branches."""
+    own = ("refs/heads/HEAD", *(f"{sign}refs/heads/{space}/{of}" for space in ("web", "run")
+                                for sign, of in (("", ""), ("!", who))))  # fmt: skip
+    hidden = ("refs", "!refs/heads", "!refs/tags", *own)
+    settings = [*(("receive.hideRefs", ref) for ref in hidden), ("core.hooksPath", str(path.parent / ".hooks"))]
+    pairs = {f"GIT_CONFIG_{what}_{n}": text for n, setting in enumerate(settings)
+             for what, text in zip(("KEY", "VALUE"), setting, strict=True)}  # fmt: skip
+    return {"GIT_CONFIG_COUNT": str(len(settings)), **pairs}
 
 
-async def _pieces(process: asyncio.subprocess.Process, feeding: asyncio.Task[None]) -> AsyncIterator[bytes]:
-    assert process.stdout is not None
-    try:
-        while piece := await process.stdout.read(PIECE):
-            yield piece
-    finally:
-        await _ended(process, feeding)
-
-
-async def _feed(pipe: asyncio.StreamWriter, body: AsyncIterator[bytes]) -> None:
-    with suppress(ConnectionError):
-        async for piece in body:
-            pipe.write(piece)
-            await pipe.drain()
-    pipe.close()
-
-
-async def _ended(process: asyncio.subprocess.Process, feeding: asyncio.Task[None]) -> None:
-    feeding.cancel()
-    await asyncio.gather(feeding, return_exceptions=True)
-    if process.returncode is None:
-        with suppress(TimeoutError):
-            async with asyncio.timeout(5):
-                await process.wait()
-    if process.returncode is None:
-        process.kill()
-        await process.wait()
+def _end(process: asyncio.subprocess.Process | None) -> None:
+    """End git with all that it started, whoever is being cancelled; the loop reaps it."""
+    if process is not None and process.returncode is None:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)

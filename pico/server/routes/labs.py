@@ -9,12 +9,13 @@ from typing import Annotated, Any
 from fastapi import Query, Request
 from fastapi.responses import FileResponse, Response, StreamingResponse
 from pydantic import Field
+from starlette.types import Receive, Scope, Send
 
 from pico.content.store import Store
 from pico.diagnostics import PicoError, error
 from pico.server.access.principal import Principal
 from pico.server.git.edits import committed
-from pico.server.git.hosting import answered, repository
+from pico.server.git.hosting import Answer, answered, repository
 from pico.server.routes.admitting import books, needs, routed
 from pico.server.routes.people import Body
 
@@ -85,8 +86,21 @@ async def _git(request: Request, lab: str, service: str, **more: str) -> Respons
     for name, variable in (("content-encoding", "HTTP_CONTENT_ENCODING"), ("git-protocol", "GIT_PROTOCOL")):
         if name in request.headers:
             asked[variable] = request.headers[name]
-    status, headers, pieces = await answered(path, asked, _body(request))
-    return StreamingResponse(pieces, status, headers)
+    return _Answered(await answered(path, asked, _body(request), request.app.state.git))
+
+
+class _Answered(StreamingResponse):
+    """What git answers; git ends with it."""
+
+    def __init__(self, answer: Answer) -> None:
+        super().__init__(answer.pieces(), answer.status, answer.headers)
+        self._answer = answer
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        try:
+            await super().__call__(scope, receive, send)
+        finally:
+            self._answer.end()
 
 
 async def _body(request: Request) -> AsyncIterator[bytes]:
