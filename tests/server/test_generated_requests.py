@@ -50,7 +50,7 @@ def ask(operation: Any, mode: GenerationMode, token: str, statuses: set[int]) ->
 
     @given(case=operation.as_strategy(generation_mode=mode))
     @settings(
-        max_examples=EXAMPLES // (12 if "/calls/" in operation.label else 2),
+        max_examples=EXAMPLES // (12 if "/calls/" in operation.label or "/desk/" in operation.label else 2),
         deadline=None,
         suppress_health_check=list(HealthCheck),
         database=None,
