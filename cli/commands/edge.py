@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import os
+import signal
+import threading
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -19,6 +22,7 @@ if TYPE_CHECKING:
 
 Url = Annotated[str, typer.Argument(metavar="URL", help="The coordinator's address.")]
 Code = Annotated[str, typer.Option("--code", metavar="CODE", help="A code that an admin of the coordinator made.")]
+WithInput = Annotated[bool, typer.Option("--with-input", hidden=True, help="End with standard input, as on SIGTERM.")]
 Pin = Annotated[str, typer.Option("--pin", metavar="SHA256", help="The coordinator's certificate, if it is its own.")]
 
 app = group(
@@ -37,15 +41,19 @@ app = group(
 
 
 @app.callback()
-def main(context: typer.Context, fidelity: Fidelity = None) -> None:
+def main(context: typer.Context, fidelity: Fidelity = None, with_input: WithInput = False) -> None:
     if context.invoked_subcommand is not None:
         return
     from pico.edge.link.server import edge_of
+    from pico.edge.network import remotes
     from pico.edge.network.enrolment import read_enrolment
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
     root = find_lab(session.folder)
+    if with_input:
+        threading.Thread(target=_end_with_input, daemon=True).start()
+    remotes.known(root)  # puts back what a killed `pico gui` left
     asyncio.run(_serve(session, edge_of(root, session.backend, fidelity), read_enrolment(root)))
 
 
@@ -99,6 +107,12 @@ async def _serve(session: Session, edge: LocalEdge, enrolment: Enrolment | None)
     finally:
         await edge.close()
     session.say(f"{edge.setup.lab.name} is served no more.")
+
+
+def _end_with_input() -> None:
+    while os.read(0, 4096):
+        pass
+    os.kill(os.getpid(), signal.SIGTERM)
 
 
 async def _reached(edge: LocalEdge) -> dict[str, DeviceEntry]:

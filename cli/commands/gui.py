@@ -39,7 +39,7 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
     from pico.server.running import listening, server
     from pico.server.store.books import books_in
 
-    from ..runs.own_page import OwnPage, opened, required_free, served
+    from ..runs.own_page import Page, opened, required_free, served
     from ..warm import WORDS
 
     session = Session.of(context)
@@ -59,7 +59,7 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
         books = books_in(own_folder(root) / "gui")
         try:
             url = f"http://127.0.0.1:{listener.getsockname()[1]}"
-            page = OwnPage(lab, root, books, url, options)
+            page = Page(lab, root, books, url, options)
             asyncio.run(served(page, server(create_app(books, desks=Desking(WORDS, {lab: root}, url))), listener, say))
         finally:
             books.close()

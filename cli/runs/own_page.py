@@ -8,7 +8,6 @@ import getpass
 import re
 import webbrowser
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,9 +18,6 @@ from .demonstration import Demonstration
 if TYPE_CHECKING:
     from pico.server.store.books import Books
 
-REMOTE = "gui"
-"""What the coordinator of the page is called among the checkout's remotes while it serves."""
-
 
 def required_free(root: Path) -> None:
     """Raise PicoError where the bench of the lab in `root` is another coordinator's, or somebody serves it already."""
@@ -29,7 +25,8 @@ def required_free(root: Path) -> None:
     from pico.edge.network import remotes
     from pico.edge.network.enrolment import read_enrolment
 
-    known, mine = read_enrolment(root), remotes.known(root).named.get(REMOTE)
+    mine = remotes.known(root).named.get(remotes.PAGE)  # puts back what a killed one left
+    known = read_enrolment(root)
     if known is not None and (mine is None or mine.url != known.url):
         hint = f"open {known.url} in the browser; `pico edge withdraw` takes the bench from there"
         raise PicoError(error("enrolled", f"this bench is enrolled as {known.bench} at {known.url}", hint=hint))
@@ -46,11 +43,14 @@ def person() -> str:
     return bare or "me"
 
 
-class OwnPage:
-    """The page for the lab in `root`, called `lab`, at `url`."""
+class Page:
+    """The page for the lab in `root`, called `lab`, at `url`; raises PicoError where another page has it."""
 
     def __init__(self, lab: str, root: Path, books: Books, url: str, options: tuple[str, ...]) -> None:
-        self._root, self._books, self._url, self._lab = root, books, url, lab
+        from pico.edge.network.own_page import OwnPage
+
+        self._books, self._url = books, url
+        self._own = OwnPage(root, url)
         self._bench = Demonstration(lab, root, books, url, person(), options)
 
     async def begin(self) -> str:
@@ -60,31 +60,16 @@ class OwnPage:
 
         shown = await self._bench.begin()
         made = await self._books.do(self._books.people.issued, person(), 86400.0, by=ADMIN, label="commands here")
-        await asyncio.to_thread(self._know, shown.bench, made.secret)
+        await asyncio.to_thread(self._own.mean, shown.bench, made.secret)
         return f"{self._url}/#code={shown.code}"
-
-    def _know(self, bench: str, secret: str) -> None:
-        from pico.edge.network import remotes, tokens
-
-        known = remotes.known(self._root)
-        named = {**known.named, REMOTE: remotes.Remote(self._url)}
-        remotes.keep(self._root, replace(known, named=named, default=f"{REMOTE}/{bench}"))
-        tokens.keep_token(self._url, secret)
 
     def end(self) -> None:
         """Let the bench be its folder's own again."""
-        from pico.edge.network import remotes, tokens
-        from pico.edge.network.enrolment import withdraw
-
         self._bench.end()
-        withdraw(self._root)
-        known = remotes.known(self._root)
-        if REMOTE in known.named:
-            remotes.keep(self._root, remotes.removed(known, REMOTE))
-        tokens.forget_token(self._url)
+        self._own.end()
 
 
-async def served(page: OwnPage, serving: Any, listener: Any, say: Callable[[str], None]) -> None:
+async def served(page: Page, serving: Any, listener: Any, say: Callable[[str], None]) -> None:
     """Serve the page until SIGINT or SIGTERM; `say` is told its address once it is there."""
     going = asyncio.create_task(serving.serve(sockets=[listener]))
     try:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 import stat
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
@@ -12,6 +14,8 @@ from relaying import TOKEN, point, relayed
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.network.enrolment import Enrolment, read_enrolment
+from pico.edge.network.own_page import OwnPage
 from pico.edge.network.remotes import Remote, Remotes, added, address, chosen, keep, known, removed
 from pico.edge.network.tokens import keep_token, token_of, tokens_file
 from pico.history.examples.example import make_example
@@ -69,6 +73,53 @@ def test_what_names_no_bench_is_said(lab: Path, word: str) -> None:
 def test_what_is_no_address_is_said(url: str) -> None:
     with pytest.raises(PicoError, match="is no address of a coordinator"):
         address(url)
+
+
+HERE = "http://127.0.0.1:1"
+
+
+def _paged(lab: Path) -> OwnPage:
+    """Return the page of a lab, with its bench enrolled there."""
+    page = OwnPage(lab, HERE)
+    (lab / ".pico").mkdir(exist_ok=True)
+    (lab / ".pico/enrolment.json").write_text(json.dumps(asdict(Enrolment(HERE, "shel/bench1", "00"))))
+    page.mean("shel/bench1", "secret")
+    return page
+
+
+def test_while_a_page_is_open_its_bench_is_meant_and_afterwards_the_one_before(lab: Path) -> None:
+    keep(lab, before := Remotes({"lab": LAB}, "lab/shel/bench1"))
+    page = _paged(lab)
+    found = chosen(lab)
+    assert found is not None and (found.remote.url, token_of(HERE)) == (HERE, "secret")
+    with pytest.raises(PicoError, match="another `pico gui` has this bench") as caught:
+        OwnPage(lab, "http://127.0.0.1:2")
+    assert caught.value.exit_code == ExitCode.LOCKED
+    page.end()
+    assert (known(lab), token_of(HERE), read_enrolment(lab)) == (before, None, None)
+
+
+def test_a_bench_that_is_chosen_while_a_page_is_open_stays_chosen(lab: Path) -> None:
+    page = _paged(lab)
+    keep(lab, replace(added(known(lab), "lab", LAB), default="lab/shel/bench2"))
+    page.end()
+    assert known(lab) == Remotes({"lab": LAB}, "lab/shel/bench2")
+    page = _paged(lab)
+    keep(lab, removed(known(lab), "gui"))
+    page.end()
+    assert known(lab) == Remotes({"lab": LAB}, "lab/shel/bench2") and read_enrolment(lab) is None
+
+
+@pytest.mark.parametrize("word", [None, "local", HERE + "/shel/bench1"])
+def test_what_a_killed_page_left_is_put_back_by_who_asks_next(lab: Path, word: str | None) -> None:
+    keep(lab, before := Remotes({"lab": LAB}, "lab/shel/bench1"))
+    os.close(_paged(lab)._lock)  # as the kernel does
+    assert '"gui"' in (lab / ".git/pico/remotes.json").read_text()
+    chosen(lab, word)
+    assert (known(lab), token_of(HERE), read_enrolment(lab)) == (before, None, None)
+    os.close(_paged(lab)._lock)
+    _paged(lab).end()
+    assert known(lab) == before
 
 
 def test_a_token_is_kept_for_one_user_and_one_coordinator(monkeypatch: pytest.MonkeyPatch) -> None:

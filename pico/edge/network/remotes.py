@@ -7,7 +7,9 @@ checkout knows several; `local` is the bench of the checkout itself.
 
 from __future__ import annotations
 
+import fcntl
 import json
+import os
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -20,6 +22,8 @@ from pico.disk import write_whole
 
 LOCAL = "local"
 """What the bench of the checkout itself is called."""
+PAGE = "gui"
+"""What the coordinator of `pico gui` is called while it serves."""
 FILE = "remotes.json"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]", "::1")
@@ -35,10 +39,12 @@ class Remote:
 
 @dataclass(frozen=True)
 class Remotes:
-    """The coordinators of a checkout by name, and the bench that is meant where none is said (empty: its own)."""
+    """The coordinators of a checkout by name, and the bench that is meant where none is said (empty: its own).
+    `before`: which one was, before that of `pico gui` was added; None without that."""
 
     named: Mapping[str, Remote] = field(default_factory=dict)
     default: str = ""
+    before: str | None = None
 
 
 @dataclass(frozen=True)
@@ -77,13 +83,19 @@ def address(url: str) -> str:
 
 
 def known(root: Path) -> Remotes:
-    """Return the coordinators that the checkout of the lab in `root` knows; raises PicoError for a file that can't be
-    read."""
+    """Return the coordinators that the checkout of the lab in `root` knows; what a killed `pico gui` left is put back
+    first. Raises PicoError for a file that can't be read."""
+    found = _read(root)
+    return found if found.before is None else _healed(root, found)
+
+
+def _read(root: Path) -> Remotes:
     path = _path(root)
     try:
         document = json.loads(path.read_bytes())
         named = {str(k): Remote(str(v["url"]), str(v.get("certificate", ""))) for k, v in document["remotes"].items()}
-        return Remotes(named, str(document.get("default", "")))
+        before = document.get("before")
+        return Remotes(named, str(document.get("default", "")), None if before is None else str(before))
     except FileNotFoundError:
         return Remotes()
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
@@ -94,13 +106,14 @@ def known(root: Path) -> Remotes:
 def keep(root: Path, remotes: Remotes) -> None:
     """Let the checkout of the lab in `root` know these coordinators; raises PicoError."""
     named = {name: {"url": one.url, "certificate": one.certificate} for name, one in sorted(remotes.named.items())}
-    data = json.dumps({"remotes": named, "default": remotes.default}, indent=1) + "\n"
+    before = {} if remotes.before is None else {"before": remotes.before}
+    data = json.dumps({"remotes": named, "default": remotes.default, **before}, indent=1) + "\n"
     write_whole(_path(root), data.encode(), folders=True)
 
 
 def added(remotes: Remotes, name: str, remote: Remote) -> Remotes:
     """Return the coordinators with one more; raises PicoError for a name that is none, or is taken."""
-    if not _NAME.fullmatch(name) or name == LOCAL:
+    if not _NAME.fullmatch(name) or name in (LOCAL, PAGE):
         text = f"`{name[:40]}` is no name for a remote"
         raise PicoError(error("remote", text, hint="letters, digits, `-` and `_`, such as `lab`"))
     if name in remotes.named:
@@ -110,21 +123,27 @@ def added(remotes: Remotes, name: str, remote: Remote) -> Remotes:
 
 
 def removed(remotes: Remotes, name: str) -> Remotes:
-    """Return the coordinators without one; raises PicoError where there is none of that name."""
+    """Return the coordinators without one, where that of `pico gui` goes with the bench meant that was before it;
+    raises PicoError where there is none of that name."""
     _require(remotes, name)
-    default = "" if remotes.default.startswith(f"{name}/") else remotes.default
-    return Remotes({k: v for k, v in remotes.named.items() if k != name}, default)
+    rest = {k: v for k, v in remotes.named.items() if k != name}
+    default, before = remotes.default, remotes.before
+    if name == PAGE:
+        default, before = (before or "") if default.startswith(f"{PAGE}/") else default, None
+    if before is not None and before.startswith(f"{name}/"):
+        before = ""
+    return Remotes(rest, "" if default.startswith(f"{name}/") else default, before)
 
 
 def chosen(root: Path, said: str | None = None) -> Far | None:
     """Return which bench is meant by a word, without one by the checkout's default; None for the checkout's own. Raises
     PicoError for a word that means none."""
     word = said or ""
-    if word == LOCAL:
-        return None
     if "://" in word:
         return _by_url(root, word)
     remotes = known(root)
+    if word == LOCAL:
+        return None
     if not (word := word or remotes.default):
         return None
     remote, lab, bench = named(remotes, word)
@@ -168,6 +187,49 @@ def _by_url(root: Path, word: str) -> Far:
     url = address(f"{scheme}://{found.netloc}")
     same = [one for one in known(root).named.values() if one.url == url]
     return Far(same[0] if same else Remote(url), parts[0], parts[1], root)
+
+
+def _healed(root: Path, found: Remotes) -> Remotes:
+    try:
+        lock = os.open(lock_of_page(root), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+    except OSError:
+        return found
+    try:
+        fcntl.flock(lock, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        return left_over_put_back(root)
+    except BlockingIOError:
+        return found
+    finally:
+        os.close(lock)
+
+
+def left_over_put_back(root: Path) -> Remotes:
+    """Put back what a `pico gui` has left whose process is gone, and return the coordinators; raises PicoError."""
+    known = _read(root)
+    left = known.named.get(PAGE)
+    return known if left is None or known.before is None else put_back(root, left.url)
+
+
+def put_back(root: Path, url: str) -> Remotes:
+    """Let the coordinator of `pico gui` at `url` be none of the checkout's any more, and the bench be its folder's own;
+    raises PicoError."""
+    from pico.edge.network.enrolment import read_enrolment, withdraw
+    from pico.edge.network.tokens import forget_token
+
+    enrolment = read_enrolment(root)
+    if enrolment is not None and enrolment.url == url:
+        withdraw(root)
+    forget_token(url)
+    known = _read(root)
+    if PAGE in known.named:
+        known = removed(known, PAGE)
+        keep(root, known)
+    return known
+
+
+def lock_of_page(root: Path) -> Path:
+    """Return the file that the process of `pico gui` has locked while it lives."""
+    return _path(root).with_name("gui.lock")
 
 
 def _path(root: Path) -> Path:
