@@ -33,6 +33,7 @@ async function step(name, work) {
 const tab = (name) => page.getByRole("tab", { name });
 const panel = page.getByRole("tabpanel");
 const text = (what) => page.getByText(what).first().waitFor();
+const part = (name) => page.getByRole("button", { name: new RegExp(`^${name} `) });
 const rows = panel.locator("[data-row]");
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 async function accessible(where) {
@@ -90,6 +91,22 @@ await step("runs", async () => {
   await rows.first().click();
   await text("Run 1: apply e1");
   await accessible("runs");
+});
+
+await step("nudge, see the drift, heal", async () => {
+  await page.keyboard.press("Control+k");
+  await page.getByRole("dialog").getByPlaceholder(/^Find a command/).fill("push p2");
+  await page.keyboard.press("Enter");
+  await part("p2").click();
+  await panel.getByText("(525, 420, 30°)").waitFor();
+  await tab("Plan").click();
+  await page.locator("#revision").fill("e1");
+  await page.keyboard.press("Enter");
+  await rows.first().waitFor();
+  await panel.getByRole("button", { name: "Apply …" }).click();
+  await page.getByRole("dialog").getByRole("button", { name: "Apply", exact: true }).click();
+  await page.getByRole("status").getByText(/^done: [1-9] done/).waitFor();
+  await text("Nothing would move");
 });
 
 await step("compare two commits", async () => {
