@@ -118,7 +118,7 @@ def test_a_push_adds_branches_and_tags_of_its_own_and_moves_no_tag(coordinator: 
     git(checkout, "commit", "--quiet", "--allow-empty", "-m", "other")
     at = git(checkout, "rev-parse", "HEAD~1")
     refused = ("replace/" + at, "tags/main", "heads/C1", "heads/HEAD", "heads/run/ben/1", "heads/web/ben", "bisect/bad",
-               "notes/x", "pico/x", "tags/C1")  # fmt: skip
+               "notes/x", "pico/x", "pico/sent/" + at, "tags/C1")  # fmt: skip
     for ref in refused:
         git(checkout, "push", "--force", ours, f"main:refs/{ref}", code=1)
     git(checkout, "push", ours, ":refs/tags/C1", code=1)

@@ -48,6 +48,9 @@ refs/tags/*)
     echo "the tag $name is there, and a tag stays what it is: choose another name" >&2
     exit 1
   fi ;;
+refs/pico/sent/*)
+  [ "${1##*/}" = "$3" ] || { echo "a commit is sent under its own id" >&2; exit 1; }
+  exit 0 ;;
 *) other="refs/tags/$name" ;;
 esac
 if git show-ref --verify --quiet "$other"; then
@@ -62,7 +65,7 @@ def repository(folder: Path, lab: str) -> Path:
     """Return the bare repository of a lab, made where there is none; raises PicoError."""
     path = folder / "git" / f"{require_name(lab, 'a lab')}.git"
     hook = folder / "git" / ".hooks" / "update"
-    if not hook.exists():
+    if not hook.exists() or hook.read_text() != _UPDATE:
         hook.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
         hook.write_text(_UPDATE)
         hook.chmod(0o700)
@@ -156,10 +159,10 @@ async def answered(path: Path, request: Mapping[str, str], body: AsyncIterator[b
 
 
 def _limits(path: Path, who: str) -> dict[str, str]:
-    """Return settings by which branches and tags alone are pushed, and none of somebody else's branches."""
+    """Return settings by which branches, tags and sent commits alone are pushed, and no branch of somebody else."""
     own = ("refs/heads/HEAD", *(f"{sign}refs/heads/{space}/{of}" for space in ("web", "run")
                                 for sign, of in (("", ""), ("!", who))))  # fmt: skip
-    hidden = ("refs", "!refs/heads", "!refs/tags", *own)
+    hidden = ("refs", "!refs/heads", "!refs/tags", "!refs/pico/sent", *own)
     settings = [*(("receive.hideRefs", ref) for ref in hidden), ("core.hooksPath", str(path.parent / ".hooks"))]
     pairs = {f"GIT_CONFIG_{what}_{n}": text for n, setting in enumerate(settings)
              for what, text in zip(("KEY", "VALUE"), setting, strict=True)}  # fmt: skip
