@@ -72,7 +72,7 @@ class Demonstration:
         made = await books.do(
             books.people.issued, self._person, 86400.0, by=ADMIN, kind="code", label="on this machine"
         )
-        words = [sys.executable, "-m", "pico_cli", "-C", str(self._root), "edge", "--with-input", *self._options]
+        words = [sys.executable, "-P", "-m", "pico_cli", "-C", str(self._root), "edge", "--with-input", *self._options]
         self._process = subprocess.Popen(  # the pipe ends with this process, whatever ends that
             words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
         )

@@ -27,7 +27,7 @@ PAUSE = 0.2
 def leave(session: Session, bench: Bench, log: Log, unattended: bool) -> None:
     """Have a process of its own go on with a run of a recipe that was begun; raises PicoError where what it says can't
     be kept."""
-    words = [sys.executable, "-m", str(__package__).partition(".")[0], "-C", str(bench.root)]
+    words = [sys.executable, "-P", "-m", str(__package__).partition(".")[0], "-C", str(bench.root)]
     words += ["--bench", _bench(session, bench), *_backend(bench)]
     words += ["run", "--resume", log.about.name, "--yes", *(["--unattended"] if unattended else [])]
     words += ["--fidelity", bench.fidelity] if bench.asked else []

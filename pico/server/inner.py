@@ -41,7 +41,7 @@ async def _door(app: FastAPI, wanted: Desking) -> AsyncIterator[str]:
     if wanted.url or not wanted.warm:
         yield wanted.url
         return
-    with _listening(app.state.books.folder / "desks") as door:
+    with _listening(app.state.books.folder) as door:
         serving = _Inner(configured(app, lifespan="off"))
         task = asyncio.create_task(serving.serve(sockets=[door]))
         try:
@@ -60,7 +60,9 @@ class _Inner(uvicorn.Server):
 
 def _listening(folder: Path) -> socket:
     """Return a socket at the port of last time where that is free: what commands keep of a bench goes by that."""
-    path = folder / "port"
+    path, before = folder / "port", folder / "desks" / "port"
+    if before.is_file():  # where a lab of that name has its desks
+        before.replace(path)
     with suppress(OSError, ValueError, PicoError):
         return listening("127.0.0.1", int(path.read_text()))
     found = listening("127.0.0.1", 0)

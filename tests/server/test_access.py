@@ -199,11 +199,13 @@ def test_tokens_end_are_revoked_and_carry_no_more_than_they_should(coordinator: 
     assert coordinator.ask("DELETE", f"/api/tokens/{small['id']}", root)[0] == 404
     own = coordinator.ask("GET", "/api/whoami", root)[1]["token"]
     assert coordinator.ask("DELETE", f"/api/tokens/{own}", anna)[0] == 404, "another's token is none of hers"
+    later = coordinator.person("anna", "operator@shel")
     now.seconds += 61
-    assert coordinator.ask("GET", "/api/whoami", anna)[0] == 401
-    assert coordinator.ask("GET", "/api/whoami", narrow["secret"])[0] == 200
+    for ended in (anna, narrow["secret"], child["secret"]):
+        assert coordinator.ask("GET", "/api/whoami", ended)[0] == 401
+    assert coordinator.ask("GET", "/api/whoami", later)[0] == 200
     coordinator.ask("PUT", "/api/principals/anna", root, {"rights": [], "disabled": True})
-    assert coordinator.ask("GET", "/api/whoami", narrow["secret"])[0] == 401
+    assert coordinator.ask("GET", "/api/whoami", later)[0] == 401
 
 
 def test_codes_are_exchanged_once_in_time_and_not_by_guessing(coordinator: Served) -> None:

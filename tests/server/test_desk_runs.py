@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import http.client
 import json
 import shutil
@@ -17,7 +18,9 @@ from coordinators import served
 from desks import WARM, Desked, desked
 
 from pico.backends.sim.session import WorldSession
+from pico.diagnostics import PicoError
 from pico.history.examples.example import make_example
+from pico.server.desk import jobs
 from pico.server.desk.desks import Desking
 
 RECIPE = """\
@@ -169,3 +172,42 @@ def test_what_a_coordinator_left_going_has_ended_when_it_is_back(tmp_path: Path)
             {"kind": "run_started"}, {"exit": 130, "why": "the coordinator ended meanwhile"},
         ]  # fmt: skip
         assert serving.ask("DELETE", "/api/labs/shel/desk/runs/abc", token)[0] == 200
+
+
+def test_a_run_ends_safely_once_the_token_that_began_it_is_revoked(
+    desk: Desked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    slow(monkeypatch, 0.1)
+    anna, vera = desk.served.person("anna", "operator"), desk.served.person("vera", "viewer")
+    people = desk.served.books.people
+    run = desk.at(anna, "apply", "e2", "-y", detach=True)[1][0]["run"]
+    while not any(b'"operation_started"' in line for line in desk_said(desk, run)):
+        assert run_of(desk, vera, run)["exit"] is None, desk_said(desk, run)
+        time.sleep(0.02)
+    me = people.known(anna)
+    assert me is not None
+    people.revoked(me.token, by="test")
+    found = lines(desk, vera, run)
+    assert (found[-1]["exit"], found[-1]["why"]) == (130, "the token that it was begun with is over"), found[-3:]
+    assert found[-1]["beside"].startswith("Stopping:")
+    assert '"unauthenticated"' not in json.dumps(found)
+    assert not [one for one in people.tokens("anna") if one["kind"] == "desk"]
+    assert desk.served.ask("GET", f"/api/labs/shel/desk/runs/{run}", anna)[0] == 401
+    assert desk.at(anna, "status")[0] == 401
+
+
+def test_a_line_that_never_ends_ends_its_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(jobs, "LONGEST", 1 << 20)
+    about = jobs.About("abc", "shel", "bench1", "anna", "apply", (), 1.0)
+    job = jobs.Job(about, tmp_path, asyncio.Event())
+    job.ended.set()
+
+    async def said() -> list[bytes]:
+        return [line async for line in job.lines()]
+
+    whole = json.dumps({"x": "y" * ((1 << 20) - 20)}).encode()
+    job.said[0].write_bytes(b'{"first": 1}\n' + whole + b"\n\n" + whole + b"\n" + b'{"rest": 2}')
+    assert asyncio.run(said())[:-1] == [b'{"first": 1}\n', whole + b"\n", whole + b"\n", b'{"rest": 2}\n']
+    job.said[0].write_bytes(b'{"first": 1}\n' + b"x" * (3 << 20))
+    with pytest.raises(PicoError, match="`pico apply` said a line of more than 1 MiB"):
+        asyncio.run(said())

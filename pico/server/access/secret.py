@@ -15,6 +15,11 @@ CODE_LASTS = 2 * 86400.0
 """The longest in which a code is to be exchanged for a token [s]."""
 
 
+SAFELY = 60.0
+"""How long the token of a run at a desk lasts beyond the one that it was made with [s]: what moves comes to its safe
+end."""
+
+
 def fingerprint(secret: str) -> bytes:
     """Return what is kept of a secret."""
     return hashlib.sha256(secret.encode("utf-8", "surrogatepass")).digest()

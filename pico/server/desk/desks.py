@@ -17,7 +17,9 @@ from pico.diagnostics import PicoError, error
 from pico.edge.network.remotes import Far, Remote
 from pico.edge.network.session import runs_begun
 from pico.server.access.principal import Principal, Right
+from pico.server.access.secret import SAFELY
 from pico.server.desk import places
+from pico.server.desk.hiding import Hiding
 from pico.server.desk.jobs import About, Job, code_of, forget_old, read
 from pico.server.desk.warm import Warm
 from pico.server.desk.words import COMMANDS, checked
@@ -30,6 +32,8 @@ LASTS, LASTING = 120.0, 86400.0
 """How long a command goes on that is not a run, and one that is [s]."""
 AT_ONCE, IN_ALL = 6, 24
 """How many commands somebody has going at once, and all together."""
+FRESH = 1.0
+"""How often it is asked whether who began a command is still let in [s]."""
 AGAIN = 300.0
 """How long a token for commands that only look is used again [s]."""
 
@@ -66,6 +70,7 @@ class Desks:
         self._folder = books.folder / "desks"
         self._warm = Warm(desking.warm)
         self._going: set[Job] = set()
+        self._hiding = Hiding(books.folder)
         self._tokens: dict[tuple[str, frozenset[Right]], tuple[Issued, float]] = {}
         self._locks: dict[str, asyncio.Lock] = {}
         self._tasks: set[asyncio.Task[None]] = set()
@@ -101,20 +106,28 @@ class Desks:
             before = len(runs_begun(far.folder))
             full = ["--json", *wanted.command.split(" "), *words]
             job.number, ended = await self._warm.run(full, folder, environment, job.said, confined)
-        except BaseException:
+        except BaseException as exc:
             self._over(job)
             self.runs.pop(job.about.id, None)
             shutil.rmtree(job.folder, ignore_errors=True)
+            if isinstance(exc, PicoError):
+                raise self._hiding.error(exc) from exc
             raise
-        self._keep(self._attend(job, ended, token, place, (far.folder, before)))
+        self._keep(self._attend(job, ended, (me.token, token.id), place, (far.folder, before)))
         return job
 
     async def followed(self, job: Job, since: int = 0) -> AsyncIterator[bytes]:
-        """Yield what a command says. One that only looks ends with who listens, and is forgotten with that."""
+        """Yield what a command says. One that only looks ends with who listens, and is forgotten with that. Raises
+        PicoError for what says too much at once, which is ended."""
         command = COMMANDS[job.about.command]
         try:
             async for line in job.lines(since):
-                yield line
+                yield line if job.about.lab in self._desking.local else self._hiding.of(line)
+        except PicoError as exc:
+            if not job.ended.is_set():
+                job.about = replace(job.about, why=exc.diagnostics[0].summary)
+                self.cancel(job)
+            raise
         finally:
             if not job.ended.is_set() and command.role == "viewer":
                 self._warm.signal(job.number, signal.SIGKILL)
@@ -191,15 +204,20 @@ class Desks:
     async def _token(self, me: Principal, job: Job) -> Issued:
         """Return a token by which a command speaks for somebody: with what they may by their own, and no more."""
         people, command = self._books.people, COMMANDS[job.about.command]
-        known, until = self._tokens.get(key := (me.name, me.rights), (None, 0.0))
+        known, until = self._tokens.get(key := (me.token, me.rights), (None, 0.0))
         looks = command.role == "viewer"
         if looks and known is not None and time.monotonic() < until:
             return known
         lasts = LASTING if command.lasting else LASTS + AGAIN
         label = "desk" if looks else f"desk: pico {job.about.command}"
-        made = await self._books.do(people.issued, me.name, lasts, by=me.name, label=label, scope=me.rights)
+        made = await self._books.do(
+            people.issued, me.name, lasts, by=me.name, kind="look" if looks else "desk", label=label, scope=me.rights,
+            parent=me.token,
+        )  # fmt: skip
         if looks:
-            self._tokens[key] = made, time.monotonic() + AGAIN
+            now = time.monotonic()
+            self._tokens = {other: kept for other, kept in self._tokens.items() if kept[1] > now}
+            self._tokens[key] = made, now + AGAIN
         return made
 
     def _environment(self, me: Principal, session: str, token: str, job: Job, *, local: bool) -> dict[str, str]:
@@ -221,19 +239,14 @@ class Desks:
         }  # fmt: skip
 
     async def _attend(
-        self, job: Job, ended: asyncio.Future[int], token: Issued, place: Path, runs: tuple[Path, int]
+        self, job: Job, ended: asyncio.Future[int], tokens: tuple[str, str], place: Path, runs: tuple[Path, int]
     ) -> None:  # fmt: skip
-        """Wait until a command has ended, or end it where it goes on for too long."""
-        command, why = COMMANDS[job.about.command], ""
-        try:
-            async with asyncio.timeout(LASTING if command.lasting else LASTS):
-                status = await asyncio.shield(ended)
-        except TimeoutError:
-            why = "it went on for too long"
-            self._warm.signal(job.number, signal.SIGKILL)
-            status = await ended
+        """Wait until a command has ended, and put away what it had."""
+        command = COMMANDS[job.about.command]
+        why = await self._until_ended(job, ended, tokens) or job.about.why
+        status = ended.result()
         if command.role != "viewer":
-            await self._books.do(self._books.people.revoked, token.id, by="coordinator")
+            await self._books.do(self._books.people.revoked, tokens[1], by="coordinator")
         if command.lasting:
             new = runs_begun(runs[0])[runs[1] :]
             job.note(exit=code_of(status), ended_at=time.time(), why=why, runs=new)
@@ -243,6 +256,23 @@ class Desks:
         if job.about.branch:
             await asyncio.to_thread(places.remove, self._bare(job.about.lab), place)
         self._over(job)
+
+    async def _until_ended(self, job: Job, ended: asyncio.Future[int], tokens: tuple[str, str]) -> str:
+        """Wait until a command has ended; end it where it goes on for too long, and as Ctrl-C does, with time for a
+        safe end, once a token is over: the one by which it was begun, or its own. Return why it was ended."""
+        loop, why = asyncio.get_running_loop(), ""
+        until = loop.time() + (LASTING if COMMANDS[job.about.command].lasting else LASTS)
+        while not ended.done():
+            if (left := until - loop.time()) <= 0:
+                self._warm.signal(job.number, signal.SIGKILL)
+                await ended
+                return why or "it went on for too long"
+            await asyncio.wait([ended], timeout=min(FRESH, left))
+            if not ended.done() and not why and not await self._books.look(self._books.people.last, *tokens):
+                why = "the token that it was begun with is over"
+                self.cancel(job)
+                until = min(until, loop.time() + SAFELY)
+        return why
 
     def _over(self, job: Job) -> None:
         self._going.discard(job)

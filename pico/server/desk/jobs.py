@@ -11,13 +11,15 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from pico.diagnostics import ExitCode, PicoError
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import write_whole
 
 LOOKS = 0.03
 """How often it is looked whether a command said more [s]."""
 BESIDE = 1 << 16
 """Bytes of what a command said beside its answer that are handed on."""
+LONGEST = 8 << 20
+"""Bytes of one line that a command says."""
 KEPT = 200
 """How many runs of a lab are kept."""
 
@@ -63,8 +65,10 @@ class Job:
         write_whole(self.folder / "about.json", json.dumps(asdict(self.about)).encode())
 
     async def lines(self, since: int = 0) -> AsyncIterator[bytes]:
-        """Yield what it says, each line a JSON document, after the first `since` of them; last how it ended."""
-        count, rest, path = 0, b"", self.said[0]
+        """Yield what it says, each line a JSON document, after the first `since` of them; last how it ended. Raises
+        PicoError for a line that is too long."""
+        count, path = 0, self.said[0]
+        rest, length = list[bytes](), 0
         file = None
         try:
             while True:
@@ -72,8 +76,15 @@ class Job:
                 if file is None and path.exists():
                     file = path.open("rb")
                 while file is not None and (piece := file.read(1 << 20)):
-                    *lines, rest = (rest + piece).split(b"\n")
-                    for line in filter(None, lines):
+                    first, *lines = piece.split(b"\n")
+                    rest.append(first)
+                    length += len(first)
+                    if length > LONGEST:
+                        raise PicoError(error("too-long", self._too_long()))
+                    if lines:
+                        lines = [b"".join(rest), *lines]
+                        rest, length = [lines[-1]], len(lines[-1])
+                    for line in filter(None, lines[:-1]):
                         count += 1
                         if count > since:
                             yield _document(line)
@@ -86,9 +97,12 @@ class Job:
         finally:
             if file is not None:
                 file.close()
-        if rest:
-            yield _document(rest)
+        if length:
+            yield _document(b"".join(rest))
         yield self._last()
+
+    def _too_long(self) -> str:
+        return f"`pico {self.about.command}` said a line of more than {LONGEST >> 20} MiB"
 
     def _last(self) -> bytes:
         ends: dict[str, Any] = {"exit": self.about.exit}

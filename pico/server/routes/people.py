@@ -115,8 +115,9 @@ async def issue(request: Request, wanted: Wanted) -> dict[str, Any]:
     days = min(wanted.days, 2.0) if wanted.kind == "code" else wanted.days
     people = books(request.app).people
     made = await books(request.app).do(
-        people.issued, name, days * 86400, by=me.name, kind=wanted.kind, label=wanted.label, scope=scope
-    )
+        people.issued, name, days * 86400, by=me.name, kind=wanted.kind, label=wanted.label, scope=scope,
+        parent=me.token,
+    )  # fmt: skip
     return _made(made)
 
 

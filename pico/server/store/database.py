@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from sqlalchemy import Connection, Engine, create_engine, event, func, select
+from sqlalchemy import Connection, Engine, create_engine, event, func, inspect, select
 from sqlalchemy.engine import make_url
 
 from pico.server.store.tables import metadata
@@ -29,6 +29,7 @@ class Database:
         self._engine = _opened(url, self.local)
         self._writer = self._engine.execution_options(pico_writes=True)
         metadata.create_all(self._writer)
+        self._widen()
 
     @contextmanager
     def reading(self) -> Iterator[Connection]:
@@ -41,6 +42,12 @@ class Database:
         """Write all or nothing: durable once the block has ended, undone where it raises."""
         with self._writer.begin() as connection:
             yield connection
+
+    def _widen(self) -> None:
+        """Add the column that tables made before it have not."""
+        with self.writing() as connection:
+            if "parent" not in {column["name"] for column in inspect(connection).get_columns("tokens")}:
+                connection.exec_driver_sql("ALTER TABLE tokens ADD COLUMN parent VARCHAR(16)")
 
     def now(self, connection: Connection) -> float:
         """Return the time by the clock that leases go by [s since 1970]."""

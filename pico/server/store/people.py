@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping
+import math
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, delete, insert, select, update
+from sqlalchemy import Connection, Row, delete, insert, select, update
 
-from pico.diagnostics import PicoError, error
-from pico.server.access.principal import Principal, Right, require_name
-from pico.server.access.secret import CODE_LASTS, LONGEST, SESSION_LASTS, fingerprint, new_secret
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.server.access.principal import Principal, Right, require_name, unauthenticated
+from pico.server.access.secret import CODE_LASTS, LONGEST, SAFELY, SESSION_LASTS, fingerprint, new_secret
 from pico.server.store.database import Database
 from pico.server.store.ordered import write_audit
 from pico.server.store.tables import principals, rights, sessions, tokens
+
+LET_IN = ("token", "desk", "look")
+"""The kinds of tokens that let somebody in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,20 +67,23 @@ class People:
             connection.execute(delete(rights).where(rights.c.principal == name))
             for right in having:
                 connection.execute(insert(rights).values(principal=name, lab=right.lab, role=right.role))
+            if disabled:
+                _fade(connection, now, tokens.c.principal == name)
             text = "disabled" if disabled else ", ".join(sorted(map(str, having)))
             write_audit(connection, now, "principal", by, of=name, why=text)
 
     def issued(
         self, name: str, lasts: float, *, by: str, kind: str = "token", label: str = "",
-        scope: Iterable[Right] | None = None,
+        scope: Iterable[Right] | None = None, parent: str | None = None,
     ) -> Issued:  # fmt: skip
-        """Make a token (or a code) of a principal that lasts so long [s]; raises PicoError where there is no such
-        principal."""
+        """Make a token (or a code) of a principal that lasts so long [s], with the token `parent`: one of the same
+        principal ends with that, and does not outlast it unless that is an admin's. Raises PicoError where there is no
+        such principal, or the parent is revoked."""
         with self._database.writing() as connection:
             now = self._database.now(connection)
             if connection.execute(select(principals).where(principals.c.name == name)).first() is None:
                 raise PicoError(error("unknown-principal", f"there is nobody called {name} here"))
-            return _issue(connection, now, name, lasts, by=by, kind=kind, label=label, scope=scope)
+            return _issue(connection, now, name, lasts, by=by, kind=kind, label=label, scope=scope, parent=parent)
 
     def exchanged(self, code: str, label: str, lasts: float) -> Issued | None:
         """Exchange a code for a token, once; None for a code that is none, or none any more."""
@@ -88,10 +95,13 @@ class People:
                 return None
             connection.execute(update(tokens).where(tokens.c.id == row.id).values(ended_at=now))
             scope = None if row.scope is None else [Right(*pair) for pair in json.loads(row.scope)]
-            return _issue(connection, now, row.principal, lasts, by=row.principal, label=label, scope=scope)
+            return _issue(
+                connection, now, row.principal, lasts, by=row.principal, label=label, scope=scope, parent=row.parent
+            )
 
     def revoked(self, token: str, *, by: str, of: str | None = None) -> bool:
-        """End a token, of the principal `of` alone where one is named; return whether there was one that lasted."""
+        """End a token and those that were made with it, of the principal `of` alone where one is named; return whether
+        there was one that lasted. The token of a run at a desk, made with it, lasts until that has ended safely."""
         with self._database.writing() as connection:
             now = self._database.now(connection)
             mine = (tokens.c.id == token) & tokens.c.ended_at.is_(None)
@@ -100,7 +110,19 @@ class People:
                 return False
             connection.execute(update(tokens).where(tokens.c.id == token).values(ended_at=now))
             write_audit(connection, now, "revoke", by, of=f"{row.principal}/{token}")
+            for below in _below(connection, token):
+                if below.kind == "desk":
+                    _fade(connection, now, tokens.c.id == below.id)
+                elif below.ended_at is None:
+                    connection.execute(update(tokens).where(tokens.c.id == below.id).values(ended_at=now))
+                    write_audit(connection, now, "revoke", by, of=f"{below.principal}/{below.id}", why=f"with {token}")
             return True
+
+    def last(self, *ids: str) -> bool:
+        """Return whether tokens let somebody in, all of them."""
+        with self._database.reading() as connection:
+            now = self._database.now(connection)
+            return all(_known(connection, now, tokens.c.id == one) is not None for one in ids)
 
     def tokens(self, of: str | None = None) -> tuple[dict[str, Any], ...]:
         """Return the tokens that last, of one principal or of all, without what is secret in them."""
@@ -149,7 +171,7 @@ class People:
 
 def _issue(
     connection: Connection, now: float, name: str, lasts: float, *, by: str, kind: str = "token", label: str = "",
-    scope: Iterable[Right] | None = None,
+    scope: Iterable[Right] | None = None, parent: str | None = None,
 ) -> Issued:  # fmt: skip
     longest = CODE_LASTS if kind == "code" else LONGEST
     if not 0 < lasts <= longest:
@@ -157,22 +179,59 @@ def _issue(
         raise PicoError(error("usage", text, hint="ask for a shorter time; it can be made anew"))
     secret = new_secret(kind)
     held = None if scope is None else json.dumps(sorted((right.lab, right.role) for right in scope))
-    made = Issued(fingerprint(secret).hex()[:12], secret, now + lasts)
-    values = {"principal": name, "kind": kind, "label": label[:200], "scope": held, "created_at": now}
+    until = now + lasts
+    if parent is not None:
+        above = connection.execute(select(tokens).where(tokens.c.id == parent).with_for_update()).one()
+        until = min(until, _longest_below(connection, above, name, kind))
+        parent = parent if above.principal == name else None
+    made = Issued(fingerprint(secret).hex()[:12], secret, until)
+    values = {"principal": name, "kind": kind, "label": label[:200], "scope": held, "created_at": now, "parent": parent}
     row = {"id": made.id, "hash": fingerprint(secret), "expires_at": made.expires_at, **values}
     connection.execute(insert(tokens).values(**row))
     write_audit(connection, now, kind, by, of=f"{name}/{made.id}", why=label[:200])
     return made
 
 
+def _longest_below(connection: Connection, above: Any, name: str, kind: str) -> float:
+    """Return until when what is made with a token may last; raises PicoError for one that makes none."""
+    if above.ended_at is not None:
+        raise unauthenticated()
+    if above.kind != "token":
+        raise PicoError(error("forbidden", "the token of a command at a desk makes no other"), ExitCode.DENIED)
+    if kind == "desk":
+        return float(above.expires_at) + SAFELY
+    if kind != "look" and (above.principal != name or Right("*", "admin") in _carried(connection, above)):
+        return math.inf
+    return float(above.expires_at)
+
+
+def _below(connection: Connection, token: str) -> Iterator[Row[Any]]:
+    """Yield what was made with a token, what was made with that, and so on."""
+    found = connection.execute(select(tokens).where(tokens.c.parent == token).with_for_update()).all()
+    for row in found:
+        yield row
+        yield from _below(connection, row.id)
+
+
+def _fade(connection: Connection, now: float, which: Any) -> None:
+    """Let tokens of runs at desks last until what moves has come to its safe end, and no longer."""
+    late = which & (tokens.c.kind == "desk") & (tokens.c.expires_at > now + SAFELY)
+    connection.execute(update(tokens).where(late).values(expires_at=now + SAFELY))
+
+
 def _known(connection: Connection, now: float, which: Any) -> Principal | None:
-    row = connection.execute(select(tokens).where(which, tokens.c.kind == "token")).first()
-    if row is None or row.ended_at is not None or row.expires_at <= now or _disabled(connection, row.principal):
+    row = connection.execute(select(tokens).where(which, tokens.c.kind.in_(LET_IN))).first()
+    if row is None or row.ended_at is not None or row.expires_at <= now:
         return None
+    if row.kind != "desk" and _disabled(connection, row.principal):
+        return None
+    return Principal(row.principal, _carried(connection, row), row.id, row.expires_at)
+
+
+def _carried(connection: Connection, row: Any) -> frozenset[Right]:
+    """Return the rights that a token carries."""
     having = _rights(connection, row.principal)
-    if row.scope is not None:
-        having &= frozenset(Right(*pair) for pair in json.loads(row.scope))
-    return Principal(row.principal, having, row.id, row.expires_at)
+    return having if row.scope is None else having & {Right(*pair) for pair in json.loads(row.scope)}
 
 
 def _rights(connection: Connection, name: str) -> frozenset[Right]:

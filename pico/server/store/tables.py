@@ -137,10 +137,13 @@ tokens = Table(
     Column("created_at", Float, nullable=False),
     Column("expires_at", Float, nullable=False),
     Column("ended_at", Float),
+    Column("parent", String(16)),
     Index("tokens_of", "principal"),
 )  # fmt: skip
-"""What lets a principal in, as SHA-256. `kind`: a `token`, or a `code` that is exchanged for one, once. `scope`: the
-rights of the principal that it carries, all where it is null. `ended_at`: revoked, or exchanged."""
+"""What lets a principal in, as SHA-256. `kind`: a `token`, that of what changes something at a desk (`desk`) and of
+what only looks there (`look`), or a `code` that is exchanged for a token, once. `scope`: the rights of the principal
+that it carries, all where it is null. `ended_at`: revoked, or exchanged. `parent`: the principal's own token that it
+was made with, and is revoked with."""
 
 sessions = Table(
     "sessions", metadata,
