@@ -195,16 +195,27 @@ def healed(network: Network, client: Client, told: str) -> list[str]:
         return [f"{client.goal}: the client did not end after {told}"]
     for words in (("apply", client.goal, "--auto-approve", "--lock-timeout", "100"),
                   ("plan", client.goal, "--detailed-exitcode")):  # fmt: skip
-        last = Client.__new__(Client)
-        last.codes, last.child = Counter(), command(network.checkout, *words, out="again.txt")
-        try:
-            until(last.ended, ENDS)
-        finally:
-            last.close()
-        if last.codes[0] != 1:
-            said = (network.checkout / "again.txt").read_text()[-1500:]
-            return [f"{' '.join(words[:2])} after {told}: {dict(last.codes)}: {said}"]
+        begun, codes, said = time.monotonic(), _again(network, words), _said(network)
+        while "error[away]" in said and time.monotonic() - begun < ENDS:  # a busy machine's line of 4 s was late
+            codes, said = _again(network, words), _said(network)
+        if codes[0] != 1:
+            return [f"{' '.join(words[:2])} after {told}: {dict(codes)}: {said[-1500:]}"]
     return []
+
+
+def _again(network: Network, words: tuple[str, ...]) -> Counter[int]:
+    """Have a client of its own do a command; return its exit code, none where it does not end."""
+    last = Client.__new__(Client)
+    last.codes, last.child = Counter(), command(network.checkout, *words, out="again.txt")
+    try:
+        until(last.ended, ENDS)
+    finally:
+        last.close()
+    return last.codes
+
+
+def _said(network: Network) -> str:
+    return (network.checkout / "again.txt").read_text()
 
 
 def table(folder: Path, draw: random.Random, count: Counter[str], given: argparse.Namespace) -> dict[str, list[str]]:

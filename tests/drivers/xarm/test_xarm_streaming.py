@@ -21,7 +21,8 @@ from pico.emulators.xarm.server import XArmEmulator
 
 @pytest.mark.slow
 def test_ten_seconds_of_set_points_at_250_hz_and_none_is_refused() -> None:
-    """How many come through depends on the machine, since a thread that was late goes on by three periods at most."""
+    """How many come through depends on the machine: a thread that was late goes on by three periods at most, and ends
+    later by what it lost."""
     emulator = XArmEmulator(joints=HOME, serial=SERIAL)
     emulator.start()
     loop = asyncio.new_event_loop()
@@ -34,7 +35,7 @@ def test_ten_seconds_of_set_points_at_250_hz_and_none_is_refused() -> None:
     times, joints = rig.turn(1, 1.5, seconds=10.0)
     rig.do(rig.arm.follow(times, joints))
     assert rig.arm._stream is not None and len(targets) == rig.arm._stream.sent == emulator.box.requested[29]
-    assert 10.0 / PERIOD / 3 <= len(targets) <= 10.0 / PERIOD + 5
+    assert 10.0 / PERIOD / 3 <= len(targets) <= 10.0 / PERIOD * 1.2
     fastest = float(np.max(np.diff(joints[:, 0]) / np.diff(times)))
     assert max(np.diff(targets)) <= 3 * PERIOD * fastest * 1.01
     assert emulator.box.error == 0 and emulator.box.unknown == []
