@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.bench.publishing.parts import File, file
@@ -50,8 +51,10 @@ def plan_between(setup: Setup, before: LabState, state: LabState, commit: Commit
     from pico.planning.checks.target import no_source
 
     parent = commit.parents[0] if commit.parents else None
-    seen, fidelity = stood_as(setup, before), setup.lab.sim.fidelity
-    plan = plan_from(setup, seen, state, base=parent, name=commit.short, fidelity=fidelity, source=no_source)
+    seen = replace(stood_as(setup, before), observed_at="")  # by nobody, at no time
+    plan = plan_from(
+        setup, seen, state, base=parent, name=commit.short, fidelity=setup.lab.sim.fidelity, source=no_source
+    )
     return file("plan.json", plan.to_json().encode(), "the plan from the state before to this one")
 
 
