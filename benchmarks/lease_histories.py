@@ -24,7 +24,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
-from network_bench import BENCH, TOKEN, answers, coordinator, forked, free_port, until  # noqa: E402
+from network_bench import BENCH, TOKEN, answers, coordinator, dialled, forked, free_port, until  # noqa: E402
 
 
 @dataclass(frozen=True)
@@ -120,23 +120,9 @@ async def _client(port: int, who: str, found: list[Told], draw: random.Random, d
 
 async def _edge(port: int, key: str, found: list[Told], over: asyncio.Event, draw: random.Random) -> None:
     import json
-    import secrets
 
-    from websockets.asyncio.client import connect
-
-    from pico.edge.network import messages
-
-    secret, mine = bytes.fromhex(key), secrets.token_hex(16)
-    shown = messages.proof(secret, "dials", BENCH, mine, "")
-    fenced = 0
-    async with connect(
-        f"ws://127.0.0.1:{port}/api/edge/link", proxy=None, compression=None,
-        additional_headers={"Authorization": f"{messages.SCHEME} {BENCH} {mine} {shown}"},
-    ) as link:  # fmt: skip
-        theirs = json.loads(await link.recv())["nonce"]
-        proof = messages.proof(secret, "edge", BENCH, mine, theirs)
-        fenced = int((await asyncio.to_thread(_fenced.read_text)) or 0)
-        await link.send(json.dumps({"proof": proof, "hello": {"fenced": fenced, "records": []}}))
+    fenced = int((await asyncio.to_thread(_fenced.read_text)) or 0)
+    async with dialled(port, BENCH, key, fenced) as link:
         while not over.is_set():
             said = {"asked": 1, "fenced": fenced, "taken": 0, "busy": False, "moving": None}
             await link.send(json.dumps({"poll": said}))

@@ -28,7 +28,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
-from network_bench import BENCH, TOKEN, Network, answers, forked, free_port, until  # noqa: E402
+from network_bench import BENCH, TOKEN, Network, answers, dialled, forked, free_port, until  # noqa: E402
 from network_live import echoed, echoing, flushed, telling, watching  # noqa: E402
 
 
@@ -125,21 +125,9 @@ async def stolen(network: Network, count: int) -> list[float]:
 
 def edges(port: int, keys: dict[str, str], seconds: float) -> None:
     """Be so many edges, which only ask; each with a client that renews."""
-    from pico.edge.network import messages
 
     async def one(bench: str, key: str) -> None:
-        from websockets.asyncio.client import connect
-
-        secret = bytes.fromhex(key)
-        mine = "0" * 32
-        shown = messages.proof(secret, "dials", bench, mine, "")
-        async with connect(
-            f"ws://127.0.0.1:{port}/api/edge/link", proxy=None, compression=None,
-            additional_headers={"Authorization": f"{messages.SCHEME} {bench} {mine} {shown}"},
-        ) as link:  # fmt: skip
-            theirs = json.loads(await link.recv())["nonce"]
-            proof = messages.proof(secret, "edge", bench, mine, theirs)
-            await link.send(json.dumps({"proof": proof, "hello": {"fenced": 0, "records": []}}))
+        async with dialled(port, bench, key) as link:
             fenced, until_ = 0, time.monotonic() + seconds
             while time.monotonic() < until_:
                 # a run that goes on by itself is renewed by what its edge says, every two seconds

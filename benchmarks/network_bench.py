@@ -14,8 +14,8 @@ import socket
 import sys
 import threading
 import time
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import AsyncIterator, Callable, Mapping
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -46,6 +46,27 @@ def free_port() -> int:
     """Return a port of 127.0.0.1 that nobody listens at."""
     with socket.create_server(("127.0.0.1", 0)) as found:
         return int(found.getsockname()[1])
+
+
+@asynccontextmanager
+async def dialled(port: int, bench: str, key: str, fenced: int = 0) -> AsyncIterator[Any]:
+    """Yield the link of an edge that has dialled a coordinator, and proved its key."""
+    import json
+
+    from websockets.asyncio.client import connect
+
+    from pico.edge.network import messages
+
+    secret, mine = bytes.fromhex(key), secrets.token_hex(16)
+    shown = messages.proof(secret, "dials", bench, mine, "")
+    async with connect(
+        f"ws://127.0.0.1:{port}/api/edge/link", proxy=None, compression=None,
+        additional_headers={"Authorization": f"{messages.SCHEME} {bench} {mine} {shown}"},
+    ) as link:  # fmt: skip
+        theirs = json.loads(await link.recv())["nonce"]
+        proof = messages.proof(secret, "edge", bench, mine, theirs)
+        await link.send(json.dumps({"proof": proof, "hello": {"fenced": fenced, "records": []}}))
+        yield link
 
 
 def edge(root: Path, note: Path | None) -> None:

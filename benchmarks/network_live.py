@@ -11,6 +11,8 @@ import time
 from pathlib import Path
 from typing import Any
 
+from network_bench import dialled
+
 HERTZ, MOVES = 30.0, 12
 """How often, and how many components move each time beside the arm."""
 
@@ -21,24 +23,13 @@ def telling(port: int, bench: str, key: str, root: Path) -> None:
 
 
 async def _telling(port: int, bench: str, key: str, root: Path) -> None:
-    from websockets.asyncio.client import connect
-
     from pico.drawing.scene.scene import numbered, scene
     from pico.edge.link.server import edge_of
-    from pico.edge.network import messages
 
     edge = edge_of(root, "sim", "kinematic")
     moment = await edge.moment()
     whole = scene(edge.setup, moment, numbered(edge.setup, moment)) | {"epoch": 1, "rev": 0}
-    secret, mine = bytes.fromhex(key), "0" * 32
-    shown = messages.proof(secret, "dials", bench, mine, "")
-    async with connect(
-        f"ws://127.0.0.1:{port}/api/edge/link", proxy=None, compression=None,
-        additional_headers={"Authorization": f"{messages.SCHEME} {bench} {mine} {shown}"},
-    ) as link:  # fmt: skip
-        theirs = json.loads(await link.recv())["nonce"]
-        proof = messages.proof(secret, "edge", bench, mine, theirs)
-        await link.send(json.dumps({"proof": proof, "hello": {"fenced": 0, "records": []}}))
+    async with dialled(port, bench, key) as link:
         asking = asyncio.create_task(_ask(link))
         tasks: dict[str, asyncio.Task[None]] = {}
         async for data in link:

@@ -39,7 +39,8 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
     from pico.server.running import listening, server
     from pico.server.store.books import books_in
 
-    from ..runs.own_page import Page, opened, required_free, served
+    from ..runs.demonstration import served
+    from ..runs.own_page import Page, opened, required_free
     from ..warm import WORDS
 
     session = Session.of(context)

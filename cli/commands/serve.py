@@ -99,21 +99,8 @@ async def _serve(
 
 async def _demonstrate(session: Session, serving: Any, listener: Any, books: Books, url: str, lab: str) -> None:
     """Serve with a bench that is not there."""
-    from ..runs.demonstration import Demonstration
+    from ..runs.demonstration import Demonstration, served
 
     shown = Demonstration(lab, books.folder / lab, books, url)
     shown.make()
-    going = asyncio.create_task(serving.serve(sockets=[listener]))
-    try:
-        while not serving.started and not going.done():
-            await asyncio.sleep(0.01)
-        beginning = asyncio.create_task(shown.begin())
-        await asyncio.wait([beginning, going], return_when=asyncio.FIRST_COMPLETED)
-        if beginning.done():
-            session.show(view, url, books.folder, None, beginning.result())
-        beginning.cancel()
-        await going
-    finally:
-        serving.should_exit = True
-        await asyncio.to_thread(shown.end)
-        await asyncio.wait([going])
+    await served(shown, serving, listener, lambda told: session.show(view, url, books.folder, None, told))

@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import subprocess
 import sys
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.diagnostics import PicoError, error
 
@@ -101,3 +102,29 @@ class Demonstration:
         except subprocess.TimeoutExpired:
             self._process.kill()
             self._process.wait()
+
+
+class Beginning(Protocol):
+    """What begins once a coordinator serves, and is told then; `end` undoes it."""
+
+    async def begin(self) -> Any: ...
+
+    def end(self) -> None: ...
+
+
+async def served(shown: Beginning, serving: Any, listener: Any, say: Callable[[Any], None]) -> None:
+    """Serve with a bench until SIGINT or SIGTERM; `say` is told what its beginning gave."""
+    going = asyncio.create_task(serving.serve(sockets=[listener]))
+    try:
+        while not serving.started and not going.done():
+            await asyncio.sleep(0.01)
+        beginning = asyncio.create_task(shown.begin())
+        await asyncio.wait([beginning, going], return_when=asyncio.FIRST_COMPLETED)
+        if beginning.done():
+            say(beginning.result())
+        beginning.cancel()
+        await going
+    finally:
+        serving.should_exit = True
+        await asyncio.to_thread(shown.end)
+        await asyncio.wait([going])

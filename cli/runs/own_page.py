@@ -7,9 +7,8 @@ import contextlib
 import getpass
 import re
 import webbrowser
-from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import ExitCode, PicoError, error
 
@@ -67,24 +66,6 @@ class Page:
         """Let the bench be its folder's own again."""
         self._bench.end()
         self._own.end()
-
-
-async def served(page: Page, serving: Any, listener: Any, say: Callable[[str], None]) -> None:
-    """Serve the page until SIGINT or SIGTERM; `say` is told its address once it is there."""
-    going = asyncio.create_task(serving.serve(sockets=[listener]))
-    try:
-        while not serving.started and not going.done():
-            await asyncio.sleep(0.01)
-        beginning = asyncio.create_task(page.begin())
-        await asyncio.wait([beginning, going], return_when=asyncio.FIRST_COMPLETED)
-        if beginning.done():
-            say(beginning.result())
-        beginning.cancel()
-        await going
-    finally:
-        serving.should_exit = True
-        await asyncio.to_thread(page.end)
-        await asyncio.wait([going])
 
 
 def opened(address: str) -> bool:
