@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 import os
 import pty
+import re
 import select
 import signal
 import sys
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -61,6 +62,25 @@ class Terminal:
         """Press keys."""
         os.write(self.link, data)
 
+    def hold(self, right: bytes, until: Callable[[], bool]) -> None:
+        """Hold a key down; where what it moves stands still (the edge missed it for once), it is pressed anew."""
+        end, seen, since = time.monotonic() + 60, 0.0, 0.0
+        while not until():
+            now = time.monotonic()
+            assert now < end, self.shown
+            if (at := self.last()) != seen:
+                seen, since = at, now
+            if now - since > 1:
+                since = now
+                self.type(right + b"3C" + right + b"1C")
+            self.type(right + b"2C")
+            time.sleep(0.03)
+
+    def last(self) -> float:
+        """Return the angle that was shown last [deg]; less than any before the first."""
+        shown = re.findall(rb"angle (-?[0-9.]+) deg", self.shown)
+        return float(shown[-1]) if shown else float("-inf")
+
     def wait_for(self, text: bytes) -> None:
         """Wait until something is shown."""
         until = time.monotonic() + 60
@@ -84,10 +104,7 @@ def test_who_is_frozen_with_a_key_held_moves_nothing_more(lab: Path, pico: Pico)
     before, terminal = angle(), Terminal("teleop", "p2.angle", "--step", "1 deg", "--yes")
     try:
         terminal.wait_for(b"step 1 deg")
-        terminal.type(b"\x1b[1;1:1C")
-        while f"angle {before + 3:g} deg".encode() not in terminal.shown:
-            terminal.type(b"\x1b[1;1:2C")
-            time.sleep(0.03)
+        terminal.hold(b"\x1b[1;1:", lambda: terminal.last() >= before + 3)
         os.kill(terminal.process, signal.SIGSTOP)
         time.sleep(0.3)
         still = angle()
@@ -95,7 +112,9 @@ def test_who_is_frozen_with_a_key_held_moves_nothing_more(lab: Path, pico: Pico)
             terminal.type(b"\x1b[1;1:2C")
             time.sleep(0.03)
         assert still == angle() and still >= before + 3
+        until = time.monotonic() + 60
         while pico("lease", "show", "--json").data["holder"] is not None:
+            assert time.monotonic() < until
             time.sleep(0.1)
         assert still == angle()
         run = pico("runs", "show", "--json").data
