@@ -9,6 +9,7 @@ import typer
 
 from ..arguments import Fidelity, LockTimeout, Yes
 from ..session import Session
+from ..views import steered_from_elsewhere as begun
 from ..views import teleop as view
 
 if TYPE_CHECKING:
@@ -23,6 +24,9 @@ def teleop(
     show: Annotated[
         str | None, typer.Option("--show", metavar="MEASURABLE", help="What stands beside it: cam.centroid.")
     ] = None,
+    begin: Annotated[
+        bool, typer.Option("--begin", help="Only begin it: who says frames to its run steers, such as the page.")
+    ] = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
@@ -39,11 +43,25 @@ def teleop(
       pico teleop p2.pose
     """
     session = Session.of(context)
-    _require_terminal()
+    _require_alone(begin, step, show)
     bench = session.bench(fidelity, None, writing=True)
     name, _, tunable = component.partition(".")
     jog = bench.teleop(name, tunable or None)
+    if begin:
+        return _begin(session, bench, jog, auto_approve)
     return _teleop(session, bench, jog, _shown(bench, show), _step(jog, step), auto_approve)
+
+
+def _begin(session: Session, bench: Bench, jog: Teleoperation, yes: bool) -> int:
+    """Begin it, and leave it to who says frames to its run."""
+    from ..runs.approving import declined, show
+
+    if jog.plan.errored or jog.plan.denied:
+        return int(show(session, bench, jog.plan, yes, single=True))
+    if code := declined(session, bench, jog.plan, yes):
+        return int(code)
+    jog.leave(lambda: session.show(begun, jog))
+    return 0
 
 
 def _teleop(
@@ -63,10 +81,14 @@ def _teleop(
     return int(jog.report.exit_code)
 
 
-def _require_terminal() -> None:
-    """Raise PicoError where nobody sits at the keys."""
+def _require_alone(begin: bool, step: str | None, show: str | None) -> None:
+    """Raise PicoError where nobody sits at the keys that are to steer, and for what only those need."""
     from pico.diagnostics import PicoError, error
 
+    if begin:
+        if step or show:
+            raise PicoError(error("usage", "--begin goes with neither --step nor --show: who steers chooses"))
+        return
     if sys.stdin is None or not sys.stdin.isatty():
         hint = 'from a script: `with bench.teleop("p2", "pose") as jog: jog.step("x", 0.5)`'
         raise PicoError(error("usage", "standard input is no terminal: nobody can press a key here", hint=hint))

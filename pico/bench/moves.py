@@ -48,11 +48,16 @@ class Moves:
     def leave(self, plan: Plan, **options: Any) -> str:
         """Have a plan run by the process that serves the bench, and leave it to that; return the run's id. Raises
         PicoError where this process is the bench, and as `run` does."""
+        return self.left(plan, **options).leave()
+
+    def left(self, plan: Plan, **options: Any) -> Execution:
+        """Return the run of a plan that is to be left to the process that serves the bench; raises PicoError where this
+        process is the bench."""
         if line_of(self.opened.root, self.opened.far) is None:
             text = "this process is the bench: what it runs ends with it"
             hint = "`pico edge` in another terminal serves it, or `--bench LAB/BENCH` means one that is"
             raise PicoError(error("detach", text, hint=hint))
-        return self.run(plan, **options).leave()
+        return self.run(plan, **options)
 
     def follow(self, word: str | None = None) -> Execution:
         """Return a run that the bench has under way, or had lately, whose id begins or ends with `word` (None: the one

@@ -7,6 +7,7 @@ so.
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from pico.bench.moves import Moves
@@ -80,6 +81,14 @@ class Teleoperation:
         """Take the bench; returns at once: go on with `hear` until it is `ready`."""
         self._run = Moves(self._opened).run(self.plan, holder=f"{STEERING} {self.operation.component}")
         self._run.begin()
+
+    def leave(self, told: Callable[[], object] = lambda: None) -> None:
+        """Have the process that serves the bench begin it, and leave it to who says frames to its run: somebody must be
+        heard of from then on, and `told` is called just before. Raises PicoError where this process is the bench, and
+        where it can't be begun."""
+        self._run = Moves(self._opened).left(self.plan, holder=f"{STEERING} {self.operation.component}")
+        told()
+        self._run.leave()
 
     def hear(self, *, tunable: str = "", by: float = 0.0, press: int = 0, release: bool = False, end: bool = False) -> (
         Answer

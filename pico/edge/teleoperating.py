@@ -23,8 +23,8 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event
-from pico.teleop.deadman import Gate
 from pico.teleop.frames import SILENCE, STEP_SECONDS, Answer, Frame, Phase, over
+from pico.teleop.presses import Presses
 from pico.teleop.steps import IN_PLANE, Jogged, jogged, moved, numbers
 
 LOST = 5.0
@@ -103,7 +103,7 @@ class _Steered:
         self.edge, self.device, self.operation, self.key = edge, device, operation, key
         self.address, self.robot = operation.component, operation.robot
         self.known: Mapping[str, Jogged] = jogged(setup, self.address, operation.arguments["what"]["tunables"])
-        self.gate, self.ended = Gate(heard=edge.clock()), False
+        self.presses, self.ended = Presses(edge.clock()), False
         self.phase: Phase = "taking" if self.robot else "ready"
         self.values = _values(before, self.known)
         self.first = dict(self.values)
@@ -115,16 +115,15 @@ class _Steered:
 
     def hear(self, frame: Frame) -> Answer:
         now = self.edge.clock()
-        self.gate, refused = self.gate.hear(frame, now)
+        refused = self.presses.hear(frame, now)
         text: str = refused
-        if not refused and frame.press:
-            text = self._senseless(frame)
-            self.gate = self.gate.closed() if text else self.gate
+        if not refused and frame.press and (text := self._senseless(frame)):
+            self.presses.end("refused")
         self.ended |= frame.end and refused != "stale"
         self.news.set()
         return Answer(
             clock=now, refused=text, phase=self.phase, values=dict(self.values), steps=self.steps,
-            missed=self.missed, limit=self.limit,
+            missed=self.missed, limit=self.limit, stopped=self.presses.stopped,
         )  # fmt: skip
 
     def _senseless(self, frame: Frame) -> str:
@@ -165,13 +164,14 @@ class _Steered:
             now = self.edge.clock()
             if self.edge.stopped() == "now":
                 return self._was_stopped()
-            if self.gate.silent(now) > LOST:
+            self.presses.listen(now)
+            if self.presses.gate.silent(now) > LOST:
                 return self._lost(f"nobody who steers was heard of for {LOST:g} s")
-            frame = self.gate.authorized(now, STEP_SECONDS)
+            frame = self.presses.gate.authorized(now, STEP_SECONDS)
             if frame is None:
                 await self._wait()
                 continue
-            self.gate = self.gate.taken()
+            self.presses.gate = self.presses.gate.taken()
             wrong = await self._step(frame)
             if wrong is not None:
                 return wrong
@@ -197,6 +197,7 @@ class _Steered:
                 return None
             arguments, goal = {"tunable": name, "from": self.values[name], "to": there}, None
         result = await self._do("jog", arguments)
+        self.presses.moved(self.edge.clock())
         if result.outcome != "done":
             wrong = result.error or error("failed", f"{name} did not move", address=self.address)
             if wrong.code not in REFUSED:
@@ -211,7 +212,8 @@ class _Steered:
 
     def _refuse(self, why: str) -> None:
         """Take note why a step is not made; that press is over, so that nobody runs into it again and again."""
-        self.gate, self.limit, self.missed = self.gate.closed(), why, self.missed + 1
+        self.presses.end("refused")
+        self.limit, self.missed = why, self.missed + 1
 
     async def _watched(self, primitive: str, arguments: Mapping[str, Any]) -> Diagnostic | None:
         """Do what takes longer than a step, as long as somebody is there who steers; return what went wrong."""
@@ -219,7 +221,7 @@ class _Steered:
         silent = 0
         while not doing.done():
             await asyncio.wait([doing], timeout=POLL)
-            silent = silent + 1 if self.gate.silent(self.edge.clock()) > _QUIET else 0
+            silent = silent + 1 if self.presses.gate.silent(self.edge.clock()) > _QUIET else 0
             if silent >= _SURE and not doing.done():
                 await self.device.stop()
                 await doing
@@ -265,12 +267,12 @@ class _Steered:
         ))  # fmt: skip
 
     def data(self, after: ObservedComponent | None) -> dict[str, Any]:
-        """Return what the journal holds of it, by address."""
+        """Return what the journal holds of it, by address, with what ended the presses of keys."""
         first, last = (
             {f"{self.address}.{name}": value for name, value in values.items()}
             for values in (self.first, _values(after, self.known) or self.values)
         )
-        return {"first": first, "last": last, "steps": self.steps, "refused": self.missed}
+        return {"first": first, "last": last, "steps": self.steps, "refused": self.missed, **self.presses.told()}
 
 
 def _values(part: ObservedComponent | None, known: Mapping[str, Jogged]) -> dict[str, float]:

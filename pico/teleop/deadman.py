@@ -51,6 +51,15 @@ class Gate:
         """Return for how long nothing was heard [s]."""
         return now - self.heard
 
+    @property
+    def pressed(self) -> bool:
+        """Whether a press goes on, by what was heard."""
+        return self.press > self.over
+
+    def lapsed(self, now: float) -> bool:
+        """Return whether a press goes on of which nothing was heard for too long: it is over."""
+        return self.pressed and now - self.held > SILENCE
+
     def authorized(self, now: float, seconds: float) -> Frame | None:
         """Return the frame that authorizes a step which takes so long from now on, or None."""
         fits = self.pending is not None and now + seconds <= self.held + SILENCE

@@ -20,6 +20,9 @@ STEPS = frozenset({"take", "jog", "let_go"})
 """What a device does in a teleoperation: take a part in hand where it stands, make one step, set it down where it is.
 No plan has them."""
 Phase = Literal["taking", "ready", "letting go", "over"]
+Stopped = Literal["released", "silent", "late", "refused"]
+"""What ends a press: the key was let go; nothing was heard of it for SILENCE; a frame of it was too long on its way; a
+step of it was refused."""
 
 
 @record
@@ -42,7 +45,7 @@ class Frame:
 class Answer:
     """What the edge says to a frame: its `clock` [s], and why the frame authorizes nothing (`refused`, empty where it
     does). `values`: where what is jogged stands; `steps` done so far, and `missed`, those that were not; `limit`: why
-    the last one was not, empty where it was."""
+    the last one was not, empty where it was. `stopped`: what ended the last press, empty while one goes on."""
 
     clock: float
     refused: str = ""
@@ -51,6 +54,7 @@ class Answer:
     steps: int = 0
     missed: int = 0
     limit: str = ""
+    stopped: Stopped | Literal[""] = ""
 
 
 def over(clock: float) -> Answer:

@@ -184,7 +184,12 @@ def test_a_press_that_was_silent_is_over_until_it_is_pressed_again(
         clock.now += 0.3
         jog.hear()
         assert jog.hear(tunable="angle", by=1.0, press=press).refused == "lapsed"
+        assert jog.answer.stopped == "silent"
         assert jog.step("angle", 1.0) and jog.values == {"angle": 2.0}
+        jog.hear(release=True)
+        assert jog.answer.stopped == "released"
+    data = steered(bench)[-1].data["data"]
+    assert data["presses"] == {"silent": 1, "released": 1} and data["after"] < 0.3
 
 
 def _operation(**arguments: Any) -> Operation:

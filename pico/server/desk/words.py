@@ -90,6 +90,7 @@ COMMANDS: Mapping[str, Command] = {
     "sim reset": _edits("--seed="),
     "sim slip": _edits(),
     "sim upset": _edits(),
+    "teleop": Command("teleop", frozenset((*_MOVING, "--begin"))),
     "stash": _edits(*_MESSAGE),
     "apply": _moves(*_PLANNING, "--stop-on-error", "--refresh"),
     "checkout": _moves("--files-only"),
