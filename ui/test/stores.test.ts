@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { filled, split } from "../src/api/client";
-import { number, python, seconds, shown, typed } from "../src/stores/say";
+import type { Operation, RunDocument, Status } from "../src/api/documents";
+import { needs, type Known } from "../src/stores/attention";
+import { mark, number, python, seconds, shown, sign, typed } from "../src/stores/say";
 import { edited, wrong } from "../src/stores/editing";
 import { changed, type Scene, type Tunable } from "../src/twin/scene";
 import { difference } from "../src/twin/ruler";
@@ -28,6 +30,36 @@ describe("values", () => {
     expect(number(1 / 3)).toBe("0.333");
     expect([seconds(7.98), seconds(31.5), seconds(72)]).toEqual(["8.0 s", "32 s", "1 min 12 s"]);
     expect(difference([0, 0, 0], [3, 4, 0]).whole).toBe(5);
+  });
+});
+
+describe("marks", () => {
+  const one = (primitive: string, kind: string, from: object, to: object) => mark({ primitive, reason: { kind }, arguments: { from, to } } as unknown as Operation);
+  it("are those of the commands", () => {
+    const slot = { slot: "storage/a1" }, pose = { pose: { x: 1, y: 2, yaw: 0 } };
+    expect([one("move", "changed", slot, pose), one("move", "changed", pose, slot), one("move", "changed", pose, pose)]).toEqual(["+", "-", "~"]);
+    expect([one("move", "staged", pose, slot), one("park", "parked", {}, {}), one("operator", "operator", {}, {}), one("set", "changed", {}, {})]).toEqual(["↷", "·", "!", "~"]);
+    expect(sign({ component: "p2", tunable: "pose", before: "storage/a1", after: { x: 1, y: 2, yaw: 0 }, text: "", tolerated: false })).toBe("+");
+  });
+});
+
+describe("what needs attention", () => {
+  const row = { component: "p2", tunable: "pose", edited: false, off: false, drifted: false, note: "" };
+  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here" };
+  const status = (...rows: object[]) => ({ rows: rows.map((more) => ({ ...row, ...more })) }) as unknown as Status;
+  it("is nothing where all is well", () => expect(needs({ ...calm, status: status({}) })).toEqual([]));
+  it("leads to where it is mended, the worst first", () => {
+    const found = needs({
+      ...calm, edge: "away",
+      scene: { components: [{ name: "hwp", type: "waveplate", state: "lost" }] } as unknown as Scene,
+      runs: [{ id: "r1", number: 3, outcome: "failed", goal: "e1", cause: { kind: "apply" } }] as unknown as RunDocument[],
+      status: status({ off: true, drifted: true }, { tunable: "angle", off: true, desired: { null_of: ["a", "b"] } }, { component: "p1", tunable: "angle", edited: true, off: true }),
+    });
+    expect(found.map((one) => [one.tone, one.to?.tab ?? null])).toEqual([
+      ["bad", null], ["bad", "inspect"], ["bad", "runs"], ["warn", "plan"], ["warn", "plan"], ["warn", "plan"], ["warn", "inspect"],
+    ]);
+    expect(found.at(-1)!.text).toBe("1 edit in no commit: p1.angle");
+    expect(found[3]!.text).toMatch(/^1 goal found by light is not reached any more: p2.angle/);
   });
 });
 

@@ -77,6 +77,7 @@ COMMANDS: Mapping[str, Command] = {
     "capture": _edits("--dry-run"),
     "cherry-pick": _edits("--mainline=", "--no-commit"),
     "commit": _edits(*_MESSAGE, "--capture", "--planned", "--meta=", "--allow-empty"),
+    "laser": _looks(),
     "laser disarm": _edits(),
     "merge": _edits(*_MESSAGE),
     "note": _edits(prose=True),

@@ -87,6 +87,17 @@ export interface Log { schema: "pico.log/v1"; head: string | null; commits: Comm
 export interface Diff { schema: "pico.diff/v1"; from: string; to: string; changes: Change[] }
 export interface Revision extends Omit<Commit, "lane" | "links"> { schema: "pico.revision/v1"; state: Record<string, PartState> }
 
+export interface Laser {
+  laser: string;
+  laser_class: string;
+  power: number;
+  emits: boolean;
+  /** `low` (class 1 or 2), `waived`, `armed` or `nothing`. */
+  lets: string;
+  arming: { by: string; role: string; ends: string; begins: string } | null;
+  broken: string;
+}
+
 export interface BenchEvent {
   schema: "pico.event/v1";
   run: string;

@@ -4,7 +4,7 @@ import { ask, filled, Refused } from "../api/client";
 import { decode, type Frame } from "../live/frame";
 import { Line } from "../live/line";
 import { changed, read, type Scene } from "../twin/scene";
-import { session, type Lease } from "./session.svelte";
+import { session, type Holder, type Lease } from "./session.svelte";
 import { told } from "./told.svelte";
 
 const MINE = `page-${sessionStorage.getItem("pico-session") ?? fresh()}`;
@@ -17,6 +17,11 @@ function fresh(): string {
 
 export interface LiveEvent { seq: number; epoch: number; rev: number; kind: string; data: unknown }
 
+/** Under which the page remembers, in its tab, of which bench it asked for the lease. */
+const ASKED = "pico-asked";
+/** How long a lease goes on that is not renewed, where nobody says so [s]. */
+const LASTS = 10;
+
 class Bench {
   name = $state<string | null>(null);
   scene = $state.raw<Scene | null>(null);
@@ -25,6 +30,10 @@ class Bench {
   /** When the lease was asked for [ms of this page's clock]: what is left of it counts from there. */
   asked = $state(0);
   token = $state<number | null>(null);
+  /** Whether this page waits for the lease. */
+  waits = $state(false);
+  /** Whether it became this page's turn while it waited, and nobody has looked yet. */
+  turn = $state(false);
   stopping = $state(false);
   /** Who hears each frame; the twin does. */
   onframe: (frame: Frame) => void = () => undefined;
@@ -37,6 +46,10 @@ class Bench {
   edge = $state<"here" | "away">("here");
 
   readonly session = MINE;
+
+  /** Whether this page has the bench; `you` in the lease is the person, who may have it in another page or terminal. */
+  get mine(): boolean { return this.#ours(this.lease?.holder ?? null); }
+  #ours(holder: Holder | null): boolean { return holder?.you === true && holder.session.endsWith(`/${MINE}`); }
   get lab(): string { return this.name?.split("/")[0] ?? ""; }
   get at(): Record<string, string> {
     const [lab = "", bench = ""] = (this.name ?? "").split("/");
@@ -109,29 +122,44 @@ class Bench {
     try {
       this.lease = await ask<Lease>("get", "/api/benches/{lab}/{bench}/lease", this.at);
       this.asked = performance.now();
+      this.#granted(this.lease.holder);
     } catch (failure) {
       if (!(failure instanceof Refused && failure.status === 0)) told.failed(failure);
     }
   }
 
+  /** Keep the lease that this page asked for, also where it is granted later, or the page was loaded anew. */
+  #granted(holder: Holder | null): void {
+    if (this.token !== null || sessionStorage.getItem(ASKED) !== this.name || !holder || !this.#ours(holder)) return;
+    if (!holder.fenced) return void setTimeout(() => void this.look(), 300);
+    this.turn = this.waits;
+    if (this.turn) told.say(`It is your turn: you have ${this.name}.`, 60);
+    this.#keep(holder.token, LASTS);
+  }
+
   async take(): Promise<void> {
+    sessionStorage.setItem(ASKED, this.name ?? "");
     await told.trying(async () => {
       const found = await ask<{ state: string; token?: number; lasts?: number }>(
         "post", "/api/benches/{lab}/{bench}/lease", this.at, { session: MINE, wait: 2 });
       if (found.token !== undefined) this.#keep(found.token, found.lasts!);
-      else told.say("Asked for: you are told when it is your turn.");
+      else {
+        this.waits = true;
+        told.say("Asked for: you are told when it is your turn.");
+      }
     });
     await this.look();
   }
 
   async release(): Promise<void> {
-    clearInterval(this.#renewing);
+    this.#forget();
     await told.trying(() => ask("delete", "/api/benches/{lab}/{bench}/lease", { ...this.at, session: MINE, token: this.token ?? 0 }));
     this.token = null;
     await this.look();
   }
 
   async steal(reason: string): Promise<void> {
+    sessionStorage.setItem(ASKED, this.name ?? "");
     await told.trying(async () => {
       const found = await ask<{ token: number; lasts: number }>(
         "post", "/api/benches/{lab}/{bench}/lease/steal", this.at, { session: MINE, reason });
@@ -140,15 +168,22 @@ class Bench {
     await this.look();
   }
 
+  #forget(): void {
+    clearInterval(this.#renewing);
+    sessionStorage.removeItem(ASKED);
+    this.waits = this.turn = false;
+  }
+
   #keep(token: number, lasts: number): void {
     this.token = token;
+    this.waits = false;
     clearInterval(this.#renewing);
     this.#renewing = window.setInterval(async () => {
       try {
         await ask("put", "/api/benches/{lab}/{bench}/lease", this.at, { session: MINE, token });
       } catch (failure) {
         if (failure instanceof Refused && failure.status === 0) return;
-        clearInterval(this.#renewing);
+        this.#forget();
         this.token = null;
         told.failed(failure);
       }
@@ -181,6 +216,7 @@ class Bench {
     if (this.edge === "away") return "the bench's edge is not connected";
     const holder = this.lease?.holder;
     if (holder && !holder.you) return `${holder.who} has the bench`;
+    if (holder && !this.mine) return holder.run ? "a run of yours goes on" : "you have the bench in another page or terminal";
     return null;
   }
 }

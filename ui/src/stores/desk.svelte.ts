@@ -2,7 +2,7 @@
 
 import { ask, filled, lines, Refused, type Diagnostic } from "../api/client";
 import type {
-  BenchEvent, Diagnostics, Diff, Log, Plan, Report, Revision, RunDocument, Said, Status,
+  BenchEvent, Diagnostics, Diff, Laser, Log, Plan, Report, Revision, RunDocument, Said, Status,
 } from "../api/documents";
 import { bench } from "./bench.svelte";
 import { told } from "./told.svelte";
@@ -32,6 +32,7 @@ class Desk {
   log = $state.raw<Log | null>(null);
   diff = $state.raw<Diff | null>(null);
   runs = $state.raw<RunDocument[]>([]);
+  lasers = $state.raw<Laser[]>([]);
   going = $state<Going | null>(null);
   /** The lines that were last written into the manifest. */
   patch = $state("");
@@ -86,6 +87,11 @@ class Desk {
     if (found) this.runs = found.runs.map((one) => one.document);
   }
 
+  /** Look at what lets lasers emit. */
+  async lit(): Promise<void> {
+    this.lasers = (await this.read<{ schema: "pico.lasers/v1"; lasers: Laser[] }>("pico.lasers/v1", "laser"))?.lasers ?? this.lasers;
+  }
+
   async compare(from: string, to: string): Promise<void> {
     this.diff = await this.read<Diff>("pico.diff/v1", "diff", from, to);
   }
@@ -117,7 +123,7 @@ class Desk {
     const answer = await this.run(words);
     told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
     this.patch = "";
-    await Promise.all([this.look(), this.history()]);
+    await Promise.all([this.look(), this.history(), ...(words[0] === "laser" ? [this.lit()] : [])]);
     return answer.exit === 0;
   }
 
@@ -142,10 +148,13 @@ class Desk {
 }
 
 const TWO = ["catalog", "laser", "recipe", "runs", "sim"];
+/** Commands that are said alone, too. */
+const ALONE = ["laser"];
 
 /** Where words are said: a command of two words has two parts. */
 export function asked(words: string[]): { path: string; rest: string[] } {
-  const count = TWO.includes(words[0] ?? "") ? 2 : 1;
+  const [first = "", second = "-"] = words;
+  const count = TWO.includes(first) && !(ALONE.includes(first) && second.startsWith("-")) ? 2 : 1;
   return { path: `/api/labs/{lab}/desk/${words.slice(0, count).join("/")}`, rest: words.slice(count) };
 }
 

@@ -1,6 +1,24 @@
 /** How commands and values are written. */
 
-import type { Pose, Value } from "../api/documents";
+import type { Change, Operation, Pose, Value } from "../api/documents";
+
+/** How commands mark what is done: `+` placed from storage, `-` stowed, `~` changed where it is, `↷` makes room, `!` a
+ * person must act, `·` changes nothing that was asked for. */
+export function mark(one: Operation): string {
+  const slot = (said: unknown) => (typeof said === "object" && said !== null && "slot" in said ? (said as { slot?: string }).slot : undefined);
+  if (one.primitive === "operator") return "!";
+  if (["park", "measure", "verify"].includes(one.primitive)) return "·";
+  if (["staged", "in_the_way"].includes(one.reason.kind)) return "↷";
+  if (slot(one.arguments.to)) return "-";
+  return slot(one.arguments.from) ? "+" : "~";
+}
+
+/** The same of a value that differs. */
+export function sign(one: Change): string {
+  if (one.tunable !== "pose") return "~";
+  if (typeof one.after === "string") return "-";
+  return typeof one.before === "string" && one.after !== null && one.after !== undefined ? "+" : "~";
+}
 
 /** Words as one types them. */
 export function typed(words: string[]): string {

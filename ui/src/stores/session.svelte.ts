@@ -3,7 +3,7 @@
 import { ask, Refused, type Diagnostic } from "../api/client";
 import { address } from "./address.svelte";
 
-export interface Holder { who: string; session: string; since: number; left: number; fenced: boolean; run: string | null; you?: boolean }
+export interface Holder { who: string; session: string; token: number; since: number; left: number; fenced: boolean; run: string | null; you?: boolean }
 export interface Lease { bench: string; holder: Holder | null; waiting: string[] }
 export interface Bench { bench: string; lease: Lease; connected: boolean | null }
 interface Me { name: string; rights: string[] }

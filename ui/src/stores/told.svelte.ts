@@ -8,9 +8,10 @@ class Telling {
   all = $state<Told[]>([]);
   #number = 0;
 
-  say(text: string): void {
+  /** Say something for so long [s]. */
+  say(text: string, lasts = 6): void {
     const made = this.#add("said", text, "");
-    setTimeout(() => this.drop(made), 6000);
+    setTimeout(() => this.drop(made), lasts * 1000);
   }
 
   wrong(found: Diagnostic[]): void {

@@ -1,0 +1,58 @@
+/** What needs somebody's attention, and where it is mended. Pure: of what the page knows already. */
+
+import type { RunDocument, Status, StatusRow } from "../api/documents";
+import type { Scene } from "../twin/scene";
+import type { Query, Tab } from "./address.svelte";
+
+export interface Need {
+  tone: "bad" | "warn";
+  text: string;
+  /** What mends it. */
+  mend: string;
+  to: { tab: Tab; query: Partial<Record<Query, string>> } | null;
+}
+
+export interface Known {
+  status: Status | null;
+  scene: Scene | null;
+  runs: RunDocument[];
+  line: "opening" | "open" | "lost";
+  edge: "here" | "away";
+}
+
+/** A value that is found by light, not told: `{"null_of": [...]}`. */
+const byLight = (row: StatusRow) => typeof row.desired === "object" && row.desired !== null && !("x" in row.desired);
+const count = (number: number, one: string, many = `${one}s`) => `${number} ${number === 1 ? one : many}`;
+const address = (row: StatusRow) => (row.tunable === "pose" ? row.component : `${row.component}.${row.tunable}`);
+
+function listed(rows: StatusRow[]): string {
+  const names = [...new Set(rows.map(address))];
+  return names.length > 3 ? `${names.slice(0, 3).join(", ")} and ${names.length - 3} more` : names.join(", ");
+}
+
+/** What needs attention, the worst first. */
+export function needs({ status, scene, runs, line, edge }: Known): Need[] {
+  const rows = status?.rows ?? [], found: Need[] = [];
+  if (line === "lost") found.push({ tone: "bad", text: "The line to the coordinator is lost", mend: "it is tried again by itself", to: null });
+  else if (edge === "away") found.push({ tone: "bad", text: "The bench's edge is not connected", mend: "start `pico edge` beside the table", to: null });
+  for (const one of scene?.components ?? []) {
+    const to = { tab: "inspect" as const, query: { part: one.name } };
+    if (one.state === "lost") found.push({ tone: "bad", text: `${one.name}: nobody sees it`, mend: "look where it is", to });
+    else if (one.type === "" && one.position) found.push({ tone: "bad", text: `${one.name} stands on the table and is not in the inventory`, mend: "look what it is", to });
+  }
+  const last = runs[0];
+  if (last && !["", "done"].includes(last.outcome))
+    found.push({ tone: "bad", text: `Run ${last.number} (${last.cause.kind} ${last.goal}) ended: ${last.outcome}`, mend: "look at the run", to: { tab: "runs", query: { run: last.id } } });
+  const off = rows.filter((row) => row.off && !row.note);
+  const kinds: [StatusRow[], (rows: StatusRow[]) => string][] = [
+    [off.filter(byLight), (some) => `${count(some.length, "goal")} found by light ${some.length === 1 ? "is" : "are"} not reached any more`],
+    [off.filter((row) => row.drifted && !byLight(row)), (some) => `${count(some.length, "value")} neither as committed nor as wanted`],
+    [off.filter((row) => !row.drifted && !byLight(row)), (some) => `${count(some.length, "value")} of the manifest not on the bench yet`],
+  ];
+  for (const [some, text] of kinds)
+    if (some.length) found.push({ tone: "warn", text: `${text(some)}: ${listed(some)}`, mend: "plan what brings it there", to: { tab: "plan", query: { rev: "" } } });
+  const edits = rows.filter((row) => row.edited);
+  if (edits.length)
+    found.push({ tone: "warn", text: `${count(edits.length, "edit")} in no commit: ${listed(edits)}`, mend: "look at it, and commit", to: { tab: "inspect", query: { part: edits[0]!.component } } });
+  return found;
+}

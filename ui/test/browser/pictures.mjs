@@ -1,0 +1,69 @@
+/**
+ * A picture of every page and state, at three widths, light and dark, in Chromium:
+ *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME]
+ * ADDRESS is what `pico gui` told, of a lab that stands at E1-3 (shel). Says what is wider than its page.
+ */
+import { mkdirSync } from "node:fs";
+import { FLAGS, opened } from "./driving.mjs";
+import { chromium } from "playwright-core";
+
+const [address, folder, only = ""] = process.argv.slice(2);
+mkdirSync(folder, { recursive: true });
+const browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", args: FLAGS });
+const page = await opened(browser, address, { width: 1440, height: 900 });
+const bench = await page.evaluate(() => location.hash.split("/").slice(1, 3).join("/"));
+const panel = page.getByRole("tabpanel");
+const press = (name, within = page) => within.getByRole("button", { name }).first().click();
+const command = async (words) => {
+  await page.keyboard.press("Control+k");
+  await page.getByRole("dialog").getByRole("textbox").fill(words);
+  await page.keyboard.press("Enter");
+};
+const closed = async () => { if (await page.locator("dialog").count()) await page.keyboard.press("Escape"); };
+
+/** What is looked at: where, and what is done there first. */
+const STATES = {
+  inspect: ["inspect?part=p2"],
+  edit: ["inspect?part=p2", () => press("Edit pose", panel)],
+  "edit-value": ["inspect?part=cam", () => press("Edit exposure", panel)],
+  "by-hand": ["inspect?part=p2", async () => {
+    await page.evaluate(() => document.activeElement?.blur());
+    await press("Edit by hand");
+    for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowUp");
+    await page.locator(".hand").waitFor();
+  }],
+  plan: ["plan?rev=e2", async () => { await page.locator("#revision").fill("e2"); await page.keyboard.press("Enter"); await page.getByText(/\d+ operations?/).first().waitFor(); }],
+  apply: ["plan?rev=e2", async () => { await page.locator("#revision").fill("e2"); await page.keyboard.press("Enter"); await press("Apply …"); }],
+  history: ["history"],
+  compare: ["history?from=E1-3&to=E2-3"],
+  commit: ["history?to=E2-3"],
+  runs: ["runs", () => panel.locator("[data-row]").first().click()],
+  palette: ["inspect", () => page.keyboard.press("Control+k")],
+  lease: ["inspect", () => page.getByTitle("Who has the bench").click()],
+  attention: ["inspect", () => page.getByTitle(/^What needs attention/).click()],
+  parts: ["inspect", () => page.getByRole("button", { name: "Components" }).click(), 999],
+};
+
+for (const theme of ["light", "dark"]) {
+  for (const width of [1440, 1000, 420]) {
+    await page.setViewportSize({ width, height: width === 420 ? 860 : 900 });
+    await page.evaluate((wanted) => { if (document.documentElement.dataset.theme !== wanted) document.documentElement.dataset.theme = wanted; }, theme);
+    for (const [name, [where, work, below = 9999]] of Object.entries(STATES)) {
+      if (!name.includes(only) || width > below) continue;
+      await page.evaluate((hash) => { location.hash = hash; }, `#/${bench}/${where}`);
+      await page.waitForTimeout(400);
+      try {
+        await work?.();
+      } catch (failure) {
+        console.log(`${name} at ${width}: ${String(failure).split("\n")[0]}`);
+      }
+      await page.waitForTimeout(700);
+      const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+      if (wide > width) console.log(`${name} is ${wide} px wide at ${width}`);
+      await page.screenshot({ path: `${folder}/${name}-${width}-${theme}.png` });
+      await closed();
+      await page.evaluate(() => document.querySelector(".parts.open") && document.querySelector("[aria-label=Components].bare")?.click());
+    }
+  }
+}
+await browser.close();
