@@ -45,11 +45,13 @@ Picture = Annotated[
     typer.Option("--picture", metavar="PNG", help="Draw it from above, steps numbered."),
 ]
 
+Frames = Annotated[bool, typer.Option("--frames", help="And what would move when, to be drawn moment by moment.")]
+
 
 def plan(
     context: typer.Context, what: PlanOrRevision = None, component: Explained = None, out: Out = None,
     explain: Explain = False, graph: Graph = False, form: Format = None, picture: Picture = None,
-    align: Align = False, no_align: NoAlign = False,
+    frames: Frames = False, align: Align = False, no_align: NoAlign = False,
     exact: Exact = False, exclude: Exclude = None, prefer: Prefer = "fewest-moves", fidelity: Fidelity = None,
     detailed_exitcode: DetailedExit = False,
 ) -> int:  # fmt: skip
@@ -95,12 +97,26 @@ def plan(
         if meanwhile:
             step = "A run goes on: plan again when it is over."
         session.show(view, found, **_named(bench, found), next_step=step)
+    if frames:
+        _frames(session, bench, found)
     session.draw(picture, "the plan", lambda path: bench.pictures.render(view="top", plan=found, out=path))
     if not explain:
         session.tell(found.diagnostics)
     if found.exit_code:
         return found.exit_code
     return ExitCode.CHANGES if detailed_exitcode and not found.reached else ExitCode.DONE
+
+
+def _frames(session: Session, bench: Bench, found: Plan) -> None:
+    """Show what would move; with --json as a document after the plan."""
+    from pico.bench.picturing.frames import frames_of_plan
+
+    from ..views import framed
+
+    made, told = frames_of_plan(bench.setup, found, bench.observe())
+    session.say("")
+    session.show(framed, made)
+    session.tell(told)
 
 
 def _require(explain: bool, graph: bool, component: str | None, form: str | None) -> None:

@@ -18,7 +18,9 @@ from ..views import runs as table
 from ..views.style import listed
 
 if TYPE_CHECKING:
+    from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
+    from pico.runs.document import RecordedRun
     from pico.runs.operations import OperationRun
 
 app = group(
@@ -67,16 +69,39 @@ def list_(
 
 
 @app.command()
-def show(context: typer.Context, run: Run = None) -> None:
+def show(
+    context: typer.Context,
+    run: Run = None,
+    frames: Annotated[
+        bool, typer.Option("--frames", help="What moved when instead, to be drawn moment by moment.")
+    ] = False,
+) -> None:
     """Show a run: its operations, what it changed, what proves it.
 
     Examples:
       pico runs show
+      pico --json runs show 20260101 --frames
     """
     session = Session.of(context)
-    found, commit = session.bench().history.recorded_run(run)
-    session.show(view, found, commit)
+    bench = session.bench()
+    found, commit = bench.history.recorded_run(run)
+    if frames:
+        _frames(session, bench, found)
+    else:
+        session.show(view, found, commit)
     session.tell(found.diagnostics)
+
+
+def _frames(session: Session, bench: Bench, found: RecordedRun) -> None:
+    """Show what moved in a run."""
+    from pico.bench.picturing.frames import frames_of_run
+
+    from ..views import framed
+
+    with waiting("Finding the ways of the arms"):
+        made, told = frames_of_run(bench.setup, found)
+    session.show(framed, made)
+    session.tell(told)
 
 
 @app.command()

@@ -265,3 +265,20 @@ def test_without_git_the_runs_of_the_bench_are_listed_and_nothing_is_proven(
     subprocess.run(["git", "init", "-q"], check=True)
     assert len(runs(pico)) == 3
     assert "standing" not in pico("verify", "--json").data
+
+
+def test_what_moved_in_a_run_is_told_moment_by_moment(here: Path, pico: Pico) -> None:
+    found = pico("--json", "runs", "show", runs(pico)[2]["document"]["id"], "--frames").data
+    assert (found["schema"], found["origin"]) == ("pico.frames/v1", "reconstructed")
+    assert found["scene"]["schema"] == "pico.scene/v1" and found["moved"] and not found["diagnostics"]
+    assert [step["outcome"] for step in found["steps"]] == ["done"] * len(found["steps"])
+    text = pico("runs", "show", "--frames").out
+    assert "p1.angle" in text and "reconstructed: a run keeps no joints" in text
+
+
+def test_what_would_move_in_a_plan_comes_after_the_plan(here: Path, pico: Pico) -> None:
+    plan, found = (json.loads(line) for line in pico("--json", "plan", "--frames").out.splitlines())
+    assert plan["schema"] == "pico.plan/v1" and found["schema"] == "pico.frames/v1"
+    assert (found["origin"], found["plan"]) == ("planned", plan["digest"])
+    assert [step["address"] for step in found["steps"]] == ["p1.angle"] and found["seconds"] == plan["makespan"]
+    assert "as the plan reckons" in pico("plan", "--frames").out

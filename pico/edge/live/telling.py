@@ -39,7 +39,7 @@ def begun(setup: Setup, moment: Moment, epoch: int) -> tuple[Told, Document]:
     """Return what is told first, as of an `epoch`."""
     names = scenes.numbered(setup, moment)
     told = Told(
-        setup, epoch, 0, names, _arms(setup, moment), _places(names, moment), _stood(moment),
+        setup, epoch, 0, names, arms_of(setup, moment), places_of(names, moment), _stood(moment),
         scenes.lighted(setup, moment),
     )  # fmt: skip
     return told, {"scene": {**scenes.scene(setup, moment, names), "epoch": epoch, "rev": 0}}
@@ -48,16 +48,21 @@ def begun(setup: Setup, moment: Moment, epoch: int) -> tuple[Told, Document]:
 def moved(told: Told, moment: Moment) -> tuple[Told, Document]:
     """Return what is elsewhere than it was told: an arm as `[index, joints, width]`, a body as `[index, x, y, z, w, i,
     j, k]` [mm]."""
-    arms, places = _arms(told.setup, moment), _places(told.names, moment)
+    arms, places = arms_of(told.setup, moment), places_of(told.names, moment)
     turned = {n: arm for n, arm in arms.items() if _differs(told.arms.get(n), arm, ARM)}
     shifted = {n: at for n, at in places.items() if _differs(told.places.get(n), at, BODY)}
-    said = {
-        "time": moment.seen.time,
-        "arms": [[n, [round(q, 6) for q in arm[:-1]], round(arm[-1], 3)] for n, arm in turned.items()],
-        "bodies": [[n, *(round(1000 * v, 4) for v in at[:3]), *(round(v, 7) for v in at[3:])]
-                   for n, at in shifted.items()],
-    }  # fmt: skip
+    said = posed(moment.seen.time, turned, shifted)
     return replace(told, arms={**told.arms, **turned}, places={**told.places, **shifted}), {"moved": said}
+
+
+def posed(time: float, arms: Mapping[int, list[Any]], places: Mapping[int, list[float]]) -> Document:
+    """Return where arms and bodies are at a time [s], as it is told."""
+    return {
+        "time": time,
+        "arms": [[n, [round(q, 6) for q in arm[:-1]], round(arm[-1], 3)] for n, arm in arms.items()],
+        "bodies": [[n, *(round(1000 * v, 4) for v in at[:3]), *(round(v, 7) for v in at[3:])]
+                   for n, at in places.items()],
+    }  # fmt: skip
 
 
 def stood(told: Told, moment: Moment) -> tuple[Told, list[Document]]:
@@ -87,7 +92,8 @@ def drawn_alike(one: Setup, other: Setup) -> bool:
     return one is other or one.at_speed(1.0) == other.at_speed(1.0)
 
 
-def _arms(setup: Setup, moment: Moment) -> dict[int, list[Any]]:
+def arms_of(setup: Setup, moment: Moment) -> dict[int, list[Any]]:
+    """Return joints and width of the arms that are known, by index."""
     return {
         number: [*moment.seen.robots[name].joints, scenes.width(setup, name, moment)]
         for number, name in enumerate(sorted(setup.lab.robots))
@@ -95,7 +101,8 @@ def _arms(setup: Setup, moment: Moment) -> dict[int, list[Any]]:
     }
 
 
-def _places(names: tuple[str, ...], moment: Moment) -> dict[int, list[float]]:
+def places_of(names: tuple[str, ...], moment: Moment) -> dict[int, list[float]]:
+    """Return where bodies are [m] and how they are turned, by index."""
     return {n: _numbers(moment.places[name]) for n, name in enumerate(names) if name in moment.places}
 
 
