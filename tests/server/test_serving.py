@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import json
+import socket
 
 import pytest
 from coordinators import BENCH, Served
 from websockets.exceptions import ConnectionClosed
+
+from pico.server.running import listening
 
 LEASE = f"/api/benches/{BENCH}/lease"
 
@@ -80,3 +83,10 @@ def test_those_who_watch_are_told_in_order_of_the_labs_where_they_have_a_role(co
         with pytest.raises(ConnectionClosed) as over:
             socket.recv()
         assert over.value.rcvd is not None and over.value.rcvd.code == 4401
+
+
+def test_a_message_that_follows_another_one_does_not_wait_for_that_to_be_acknowledged() -> None:
+    with listening("127.0.0.1", 0) as served, socket.create_connection(served.getsockname()[:2], timeout=10):
+        accepted, _ = served.accept()
+        with accepted:
+            assert accepted.getsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY)

@@ -12,7 +12,7 @@ import asyncio
 import json
 import os
 import secrets
-from collections.abc import AsyncIterator, Mapping
+from collections.abc import AsyncIterator, Coroutine, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -80,7 +80,7 @@ class Dispatcher:
         self._books, self.hub, self.rows = books, hub, CommandRows(books.database)
         self._held: set[Held] = set()
         self._sending: dict[tuple[str, str], asyncio.Task[Document]] = {}
-        self._hinting: set[asyncio.Task[None]] = set()
+        self._apart: set[asyncio.Future[Any]] = set()
         self._cancelled: dict[tuple[str, str], asyncio.Event] = {}
 
     def call(self, who: Principal, session: str, bench: str, name: str, arguments: list[Any]) -> Call:
@@ -127,9 +127,7 @@ class Dispatcher:
     def turned(self, bench: str, turn: Turn) -> None:
         """Hear that a lease changed hands, which the edge is to know at once."""
         if turn.audit:
-            hinting = asyncio.create_task(self.hub.hinted(bench, turn.row.token))
-            self._hinting.add(hinting)
-            hinting.add_done_callback(self._hinting.discard)
+            self._aside(self.hub.hinted(bench, turn.row.token))
 
     # what needs no lease
 
@@ -300,8 +298,7 @@ class Dispatcher:
                 async for said_back in line.answers(number, body):
                     answer = said_back
             if "refused" not in answer:
-                record = Record(command, "done", json.dumps(answer, separators=(",", ":")))
-                await self._books.do(self.rows.answered, bench, command.key, record)
+                self._write(bench, Record(command, "done", json.dumps(answer, separators=(",", ":"))))
                 return answer
             row, now, _ = await self._books.look(self._books.leases.shown, bench)
             if row.grant is None or row.grant.token != command.token or now > row.grant.expires:
@@ -309,6 +306,18 @@ class Dispatcher:
             if answer["refused"] == "conflict":
                 raise PicoError(error("conflict", f"{command.key} is recorded with other content"))
             await asyncio.sleep(AGAIN)
+
+    def _write(self, bench: str, record: Record) -> None:
+        """Write what a command was answered. Nobody waits for that: its edge has it on its disk, and says so again
+        where this coordinator ends before, or can't write now."""
+        self._aside(self._books.do(self.rows.answered, bench, record.command.key, record))
+
+    def _aside(self, work: Coroutine[Any, Any, Any]) -> None:
+        """Have something done that nobody waits for."""
+        task = asyncio.create_task(work)
+        self._apart.add(task)
+        task.add_done_callback(self._apart.discard)
+        task.add_done_callback(lambda over: over.cancelled() or over.exception())
 
     async def _detached(self, bench: str, token: int, run: str) -> None:
         """Let a run that is to be started renew the lease that was asked for it."""

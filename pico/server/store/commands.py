@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, Select, insert, select, update
+from sqlalchemy import Connection, bindparam, insert, select, update
 from sqlalchemy import func as sql
 
 from pico.control import commands as control
@@ -18,6 +18,16 @@ from pico.control.gate import Command, Memory, Record
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.server.store.database import Database
 from pico.server.store.tables import benches, commands
+
+# made once: to put a statement together takes longer than to carry it out
+_BENCH = commands.c.bench == bindparam("of")
+_ROWS = select(commands).where(_BENCH)
+_GRANTED = select(benches.c.granted).where(benches.c.bench == bindparam("of")).with_for_update()
+_LAST = select(sql.max(commands.c.seq)).where(_BENCH & (commands.c.token == bindparam("under")))
+_KNOWN = _ROWS.where(commands.c.key == bindparam("known_by"))
+_OPEN = _ROWS.where(commands.c.state.in_(sorted(OPEN)))
+_DUE = _ROWS.where((commands.c.token == bindparam("under")) & (commands.c.state == "waiting")).order_by(commands.c.seq)
+_CHANGED = update(commands).where(_BENCH & (commands.c.key == bindparam("known_by")))
 
 
 @dataclass(frozen=True)
@@ -38,8 +48,7 @@ class CommandRows:
         """Take a command on under the next number of its lease, or return the row that its key has. Raises PicoError
         (exit code LOCKED) where the lease is over, and for a known key with other content."""
         with self._database.writing() as connection:
-            asked = select(benches.c.granted).where(benches.c.bench == bench).with_for_update()
-            if connection.execute(asked).scalar() != token:
+            if connection.execute(_GRANTED, {"of": bench}).scalar() != token:
                 text = f"the lease {token} of {bench} is over"
                 raise PicoError(error("lease", text, hint="`pico lease show` says who has it"), ExitCode.LOCKED)
             known = _known(connection, bench, key)
@@ -53,7 +62,7 @@ class CommandRows:
             if known is None:
                 values = {"bench": bench, "key": key, "token": token, "seq": command.seq, "digest": digest}
                 now = self._database.now(connection)
-                connection.execute(insert(commands).values(**values, state=row.state, call=call, asked_at=now))
+                connection.execute(insert(commands), {**values, "state": row.state, "call": call, "asked_at": now})
             return row
 
     def last(self, bench: str, token: int) -> int:
@@ -85,27 +94,21 @@ class CommandRows:
     def due(self, bench: str, token: int) -> tuple[Sent, ...]:
         """Return what is to be sent, or sent again, for the lease that counts, in order."""
         with self._database.reading() as connection:
-            asked = _of(bench).where((commands.c.token == token) & (commands.c.state == "waiting"))
-            rows = connection.execute(asked.order_by(commands.c.seq))
+            rows = connection.execute(_DUE, {"of": bench, "under": token})
             return tuple(Sent(_row(row), row.call) for row in rows)
 
 
-def _of(bench: str) -> Select[Any]:
-    return select(commands).where(commands.c.bench == bench)
-
-
 def _last(connection: Connection, bench: str, token: int) -> int:
-    asked = select(sql.max(commands.c.seq)).where((commands.c.bench == bench) & (commands.c.token == token))
-    return connection.execute(asked).scalar() or 0
+    return connection.execute(_LAST, {"of": bench, "under": token}).scalar() or 0
 
 
 def _known(connection: Connection, bench: str, key: str) -> Row | None:
-    found = connection.execute(_of(bench).where(commands.c.key == key)).first()
+    found = connection.execute(_KNOWN, {"of": bench, "known_by": key}).first()
     return _row(found) if found else None
 
 
 def _open(connection: Connection, bench: str) -> Commands:
-    found = connection.execute(_of(bench).where(commands.c.state.in_(sorted(OPEN))))
+    found = connection.execute(_OPEN, {"of": bench})
     return Commands({row.key: _row(row) for row in found})
 
 
@@ -116,6 +119,5 @@ def _row(found: Any) -> Row:
 def _write(connection: Connection, bench: str, before: Commands, after: Commands) -> None:
     for key, row in after.rows.items():
         if row != before.rows[key]:
-            mine = (commands.c.bench == bench) & (commands.c.key == key)
             values = {"state": row.state, "result": row.result, "by": row.by}
-            connection.execute(update(commands).where(mine).values(**values))
+            connection.execute(_CHANGED, {"of": bench, "known_by": key, **values})

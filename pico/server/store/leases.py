@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from sqlalchemy import Connection, delete, insert, or_, select, update
+from sqlalchemy import Connection, bindparam, delete, insert, or_, select, update
 
 from pico.control import leases as control
 from pico.control.leases import Asker, Audit, Grant, Lease, Turn
@@ -18,6 +18,9 @@ from pico.server.store.tables import benches, waiting
 
 Change = Callable[[Lease, float, bool], Turn]
 """A change of a row, at a time [s], with whether the edge has been met."""
+_ROW = select(benches).where(benches.c.bench == bindparam("of"))
+_LOCKED = _ROW.with_for_update()
+_QUEUE = select(waiting).where(waiting.c.bench == bindparam("of")).order_by(waiting.c.number)
 
 
 class Leases:
@@ -114,11 +117,10 @@ class Leases:
 
 
 def _read(connection: Connection, bench: str, *, locked: bool = False) -> tuple[Lease, bool, float]:
-    asked = select(benches).where(benches.c.bench == bench)
-    found = connection.execute(asked.with_for_update() if locked else asked).first()
+    found = connection.execute(_LOCKED if locked else _ROW, {"of": bench}).first()
     if found is None:
         raise PicoError(error("unknown-bench", f"there is no bench {bench} here", hint="`pico bench list` names them"))
-    queue = connection.execute(select(waiting).where(waiting.c.bench == bench).order_by(waiting.c.number))
+    queue = connection.execute(_QUEUE, {"of": bench})
     grant = None
     if found.granted is not None:
         grant = Grant(found.granted, Asker(found.session, found.who), found.expires, found.fenced, found.job)
