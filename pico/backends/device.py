@@ -17,6 +17,7 @@ from pico.model.record import record
 from pico.model.trace.event import Event
 
 if TYPE_CHECKING:
+    from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
     from pico.twin.moment import Moment
@@ -102,6 +103,10 @@ class Device(Protocol):
     async def peek(self, component: str, measurable: str) -> Measurement:
         """Acquire a measurable as the bench is, opening nothing: nothing of it is assured. Raises PicoError where it
         can't be."""
+        ...
+
+    async def snap(self, component: str, measurable: str) -> Reading:
+        """Read a measurable as `peek` does, and keep nothing of it. Raises PicoError where it can't be."""
         ...
 
     async def halt(self) -> None:

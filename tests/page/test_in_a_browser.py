@@ -80,7 +80,8 @@ def served(tmp_path: Path) -> Iterator[Served]:
 def begun(script: str, *words: str) -> subprocess.Popen[str]:
     environment = os.environ | {"CHROMIUM": str(CHROMIUM)}
     whole = ["node", UI / "test/browser" / script, *words]
-    return subprocess.Popen(whole, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    pipe = subprocess.PIPE
+    return subprocess.Popen(whole, env=environment, text=True, stdin=pipe, stdout=pipe, stderr=pipe)
 
 
 def test_the_tour(served: Served) -> None:

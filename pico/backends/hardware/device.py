@@ -40,6 +40,7 @@ from pico.vision.calibration import calibration_digest, known_arms, read_calibra
 from pico.vision.frame import TRIES, Frame
 
 if TYPE_CHECKING:
+    from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
     from pico.twin.moment import Moment
@@ -215,6 +216,16 @@ class HardwareDevice:
 
         try:
             return await self._measured(component, measurable, None)
+        except Failed as exc:
+            raise PicoError(exc.diagnostic) from exc
+
+    async def snap(self, component: str, measurable: str) -> Reading:
+        """Return what is read now of a measurable, and keep nothing; raises PicoError."""
+        from pico.backends.attempt import Failed
+
+        readers = Readers(self.setup, self.root, await self.links.instruments(), self.look)
+        try:
+            return await readers.read(component, measurable)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
 

@@ -50,19 +50,22 @@ class Readers:
     ) -> Measurement:  # fmt: skip
         """Return what is measured of a component on the bench as it is `seen`; `busy` as in `measurement`. Raises
         Failed where nothing measures it, or that fails."""
-        known = self._setup.measurable_of(component, name)
+        known, reading = self._setup.measurable_of(component, name), await self.read(component, name)
+        made = (self._setup, self._root, seen, known, reading, component, name, busy, self._at)
+        return await asyncio.to_thread(measurement, *made)
+
+    async def read(self, component: str, name: str) -> Reading:
+        """Return what is read of a measurable; raises Failed where nothing measures it, or that fails."""
         reader = self._reader(component, name)
         if reader is None:
             text = f"no device of this bench measures {component}.{name}"
             raise Failed(error("unmeasured", text, address=f"{component}.{name}"))
         try:
-            reading = await reader()
+            return await reader()
         except PicoError as exc:
             said = exc.diagnostics[0]
             text = f"{component}.{name} could not be measured: {said.summary}"
             raise Failed(replace(said, summary=text, address=f"{component}.{name}")) from exc
-        made = (self._setup, self._root, seen, known, reading, component, name, busy, self._at)
-        return await asyncio.to_thread(measurement, *made)
 
     async def image(self, component: str) -> Reading:
         """Return one frame of a camera in the beam, with its brightest pixel (`peak`) and its `mean` [counts]."""

@@ -29,6 +29,7 @@ from pico.teleop.frames import STEPS
 
 if TYPE_CHECKING:
     from pico.backends.last_seen import LastSeen
+    from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.sim.session import WorldSession
     from pico.backends.sim.table import SimulatedTable
@@ -167,6 +168,19 @@ class SimDevice:
         world, now = self._world(), self._clock()
         try:  # in a thread of its own: who steers is heard meanwhile
             return await asyncio.to_thread(measured, self.setup, self.root, world, component, measurable, None, now)
+        except Failed as exc:
+            raise PicoError(exc.diagnostic) from exc
+
+    async def snap(self, component: str, measurable: str) -> Reading:
+        """Return what is read now of a measurable, and keep nothing; raises PicoError."""
+        from pico.backends.attempt import Failed
+        from pico.backends.sim.measuring import require_simulated
+        from pico.backends.sim.readings import Table
+
+        try:
+            measurer = require_simulated(self.setup, component, measurable)[1]
+            table = Table(self.setup, self.root, self._world())
+            return await asyncio.to_thread(measurer.read, table, component, measurable)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
 

@@ -11,6 +11,7 @@ from pico.content.store import store_of
 from pico.diagnostics import PicoError, error
 from pico.edge.link import wire
 from pico.edge.link.pictures import Arrays, look_as_json, packed
+from pico.edge.link.stills import Stills
 from pico.edge.live.following import follow
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Lease
@@ -39,6 +40,7 @@ class Answering:
     def __init__(self, edge: LocalEdge) -> None:
         self.edge = edge
         self._arrays: Arrays = {}
+        self._stills = Stills(edge)
 
     async def answers(self, name: str, arguments: list[Any], taken: Taken) -> AsyncIterator[dict[str, Any]]:
         """Yield the documents that answer a call; what it takes is added to `taken`."""
@@ -63,6 +65,8 @@ class Answering:
     async def _called(self, name: str, arguments: list[Any]) -> Any:
         if name == "look":
             return await self._look()
+        if name == "picture":
+            return await self._stills.of(*arguments)
         if name == "array":
             return self._array(*arguments)
         owner, _, method = name.partition(".")

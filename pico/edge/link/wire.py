@@ -51,6 +51,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),
     "array": ((str,), str),
+    "picture": ((str, str, list[str]), dict[str, Any]),
     "acquire": ((str, float), Lease),
     "execute": ((Operation, str, Lease), OperationResult),
     "start": ((Job, str), str),

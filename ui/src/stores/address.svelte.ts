@@ -1,8 +1,8 @@
 /** Where in the page somebody is: kept in the address behind `#`, so that it can be shared. */
 
-export const TABS = ["inspect", "plan", "history", "runs"] as const;
+export const TABS = ["inspect", "plan", "history", "runs", "do"] as const;
 export type Tab = (typeof TABS)[number];
-const QUERY = ["part", "rev", "op", "from", "to", "run"] as const;
+const QUERY = ["part", "rev", "op", "from", "to", "run", "act"] as const;
 export type Query = (typeof QUERY)[number];
 
 export interface Where { bench: string | null; tab: Tab; query: Partial<Record<Query, string>> }
