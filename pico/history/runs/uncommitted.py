@@ -14,6 +14,7 @@ from pathlib import Path
 from pico.attachment import bench_folder, own_folder
 from pico.diagnostics import Diagnostic, PicoError
 from pico.edge.network.opening import holder_of, remembered
+from pico.edge.network.remotes import PAGE, known
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
@@ -158,8 +159,10 @@ def _keep(folder: LabFolder) -> Keep | None:
 
 
 def _own(folder: LabFolder, runs: Iterable[RunRecord]) -> Iterable[RunRecord]:
-    """Return the runs that this checkout is to carry: on a bench that it shares with others those that it began."""
-    if folder.far is None:
+    """Return the runs that this checkout is to carry: on a bench that it shares with others those that it began. That
+    which `pico gui` serves is its own, whatever the address was at which it did so."""
+    page = known(folder.root).named.get(PAGE)
+    if folder.far is None or (page is not None and page.url == folder.far.remote.url):
         return runs
     from pico.edge.network.session import runs_begun
 

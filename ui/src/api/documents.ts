@@ -118,6 +118,7 @@ export interface Report {
   failed: number;
   unknown: number;
   skipped: number;
+  held?: Record<string, string>;
   seconds: number;
   evidence: string;
   diagnostics: Diagnostic[];

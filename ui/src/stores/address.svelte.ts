@@ -2,7 +2,7 @@
 
 export const TABS = ["inspect", "plan", "history", "runs", "do"] as const;
 export type Tab = (typeof TABS)[number];
-const QUERY = ["part", "rev", "op", "from", "to", "run", "act"] as const;
+const QUERY = ["part", "rev", "op", "from", "to", "run", "t", "act"] as const;
 export type Query = (typeof QUERY)[number];
 
 export interface Where { bench: string | null; tab: Tab; query: Partial<Record<Query, string>> }

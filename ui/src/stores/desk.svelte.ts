@@ -4,6 +4,7 @@ import { ask, filled, lines, Refused, type Diagnostic } from "../api/client";
 import type {
   BenchEvent, Diagnostics, Diff, Laser, Log, Plan, Report, Revision, RunDocument, Said, Status,
 } from "../api/documents";
+import { reel, type Frames, type Reel } from "../replay/frames";
 import { bench } from "./bench.svelte";
 import { told } from "./told.svelte";
 
@@ -27,6 +28,10 @@ export interface Answer { said: Said[]; exit: number; diagnostics: Diagnostic[] 
 class Desk {
   status = $state.raw<Status | null>(null);
   plan = $state.raw<Plan | null>(null);
+  /** What would move in the plan, moment by moment. */
+  ahead = $state.raw<Reel | null>(null);
+  thinking = $state(false);
+  #thought = 0;
   /** Of which words the plan is: `["plan", "e1"]`. */
   planned = $state<string[]>([]);
   log = $state.raw<Log | null>(null);
@@ -100,12 +105,24 @@ class Desk {
     return this.read<Revision>("pico.revision/v1", "show", revision);
   }
 
+  /** Plan; the plan is there as soon as it is made, and what would move when as soon as the ways are found. */
   async think(words: string[]): Promise<void> {
     this.planned = words;
-    const answer = await this.run(words);
-    const plan = answer.said.find((one) => "schema" in one && one.schema === "pico.plan/v1") as unknown as Plan | undefined;
-    this.plan = plan ?? null;
-    if (!plan) told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
+    this.ahead = null;
+    this.thinking = true;
+    const number = ++this.#thought;
+    const answer = await this.run([...words, "--frames"], (said) => {
+      if (number !== this.#thought || !("schema" in said)) return;
+      if (said.schema === "pico.plan/v1") {
+        this.plan = said as unknown as Plan;
+        this.thinking = false;
+      } else if (said.schema === "pico.frames/v1") this.ahead = reel(said as unknown as Frames, 0);
+    });
+    if (number !== this.#thought) return;
+    this.thinking = false;
+    if (answer.said.some((one) => "schema" in one && one.schema === "pico.plan/v1")) return;
+    this.plan = null;
+    told.wrong(answer.diagnostics.filter((one) => one.severity === "error"));
   }
 
   /** Write into the manifest; returns whether that was done. */

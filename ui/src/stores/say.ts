@@ -29,6 +29,10 @@ const KEPT: Record<string, (rest: string[]) => string | null> = {
   plan: ([rev]) => `print(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
   apply: ([rev]) => `bench.apply(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
   status: () => "print(bench.status())",
+  runs: ([what, a, b]) => ({
+    show: `run, commit = bench.history.recorded_run(${JSON.stringify(a ?? "")})\nprint(run)`,
+    compare: `print(bench.history.compare_runs(${JSON.stringify(a ?? "")}, ${JSON.stringify(b ?? "")}))`,
+  } as Record<string, string>)[what ?? ""] ?? "for run, commit in bench.history.runs():\n    print(run.id, run.goal, run.outcome)",
 };
 
 /** The same in Python, where a line of it does the same. */

@@ -1,10 +1,13 @@
 /** What the panels want the twin to show: ghosts, what is outlined. */
 
-import type { Change, Operation, PartState, Plan, Pose } from "../api/documents";
+import type { Frame } from "../live/frame";
+import type { Change, PartState, Plan, Pose } from "../api/documents";
 import type { Ghost } from "../twin/marks";
 import type { Scene } from "../twin/scene";
 
 class Shown {
+  /** Arms and parts as they would be at a moment of a plan. */
+  phantom = $state.raw<Frame | null>(null);
   ghosts = $state.raw<Ghost[]>([]);
   outlined = $state.raw<string[]>([]);
 }
@@ -46,19 +49,5 @@ export function ghostsBetween(changes: Change[], scene: Scene): Ghost[] {
       const pose = stands(value, scene);
       return pose ? [{ part: part.index, ...pose, label, tone }] : [];
     });
-  });
-}
-
-/** How a bench stands `time` seconds into a plan: of what has moved by then, as ghosts. */
-export function ghostsAt(plan: Plan, scene: Scene, time: number): Ghost[] {
-  return plan.operations.flatMap((one: Operation, i) => {
-    if (one.primitive !== "move" || one.start > time) return [];
-    const part = scene.components.find((each) => each.name === one.component);
-    const from = stands(one.arguments.from, scene), to = stands(one.arguments.to, scene);
-    if (!part || !to || !from) return [];
-    const share = Math.min(1, (time - one.start) / Math.max(one.seconds, 1e-6));
-    const turn = ((to.yaw - from.yaw + 540) % 360) - 180;
-    const pose = { x: from.x + share * (to.x - from.x), y: from.y + share * (to.y - from.y), yaw: from.yaw + share * turn };
-    return [{ part: part.index, ...pose, label: String(i + 1), tone: "to" as const }];
   });
 }

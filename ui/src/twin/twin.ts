@@ -10,12 +10,13 @@ import type { Frame } from "../live/frame";
 import { ArmModel } from "./arm";
 import { component, dropped, place } from "./building";
 import { areaOutline, badge, circle, ghost, outline, ray, ring, slotOutline, type Ghost } from "./marks";
+import { Phantom } from "./phantom";
 import { snapped, type Snap } from "./ruler";
 import type { Component, Scene, Vec } from "./scene";
 
 export type View = "iso" | "top" | "front" | "side";
 export type Layer = "beams" | "ghosts" | "arms" | "slots" | "reach";
-type Room = Layer | "table" | "parts" | "marks" | "ruler";
+type Room = Layer | "phantom" | "table" | "parts" | "marks" | "ruler";
 export interface Hit { part: number | null; name: string; point: Vec }
 export interface Measured { from: Vec; to: Vec }
 export interface Told {
@@ -38,6 +39,7 @@ export class Twin {
   readonly #layers: Record<Room, Group>;
   readonly #parts = new Map<number, Group>();
   readonly #arms = new Map<number, ArmModel>();
+  readonly #phantom = new Phantom();
   readonly #watch: ResizeObserver;
   #scene: Scene | null = null;
   #dirty = true;
@@ -60,10 +62,11 @@ export class Twin {
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.#controls.addEventListener("change", () => (this.#dirty = true));
-    const names = ["table", "slots", "reach", "parts", "arms", "beams", "ghosts", "marks", "ruler"] as const;
+    const names = ["table", "slots", "reach", "parts", "arms", "beams", "ghosts", "phantom", "marks", "ruler"] as const;
     this.#layers = Object.fromEntries(names.map((name) => [name, new Group()])) as never;
     this.#stage.add(...Object.values(this.#layers));
     this.#layers.reach.visible = false;
+    this.#layers.phantom.add(this.#phantom.root);
     this.#light();
     canvas.addEventListener("pointermove", this.#hovered);
     canvas.addEventListener("pointerdown", (event) => (this.#down = [event.clientX, event.clientY]));
@@ -87,13 +90,13 @@ export class Twin {
   show(scene: Scene): void {
     const before = this.#scene;
     this.#scene = scene;
-    if (before?.epoch !== scene.epoch) this.#begin(scene);
+    if (before?.epoch !== scene.epoch) this.#begin(scene, before);
     else if (before.components !== scene.components) this.#stand(scene, before);
     this.#lit(scene);
     this.#marked();
   }
 
-  #begin(scene: Scene): void {
+  #begin(scene: Scene, before: Scene | null): void {
     for (const name of ["table", "slots", "reach", "parts", "arms"] as const) this.#empty(name);
     this.#parts.clear();
     this.#arms.clear();
@@ -106,7 +109,8 @@ export class Twin {
       for (const radius of arm.reach ?? [])
         this.#layers.reach.add(outline(circle(radius).map(([x, y]) => [x + arm.mount.x, y + arm.mount.y]), ACCENT));
     }
-    this.view("iso");
+    // the same table at another time is looked at from where one looks
+    if (JSON.stringify(before?.table.size) !== JSON.stringify(scene.table.size)) this.view("iso");
   }
 
   /** Components stand otherwise: where they are say the frames, what they look like the scene. */
@@ -175,8 +179,15 @@ export class Twin {
     this.#dirty = true;
   }
 
+  /** Arms and parts as they would be at a moment, translucent; null: none. */
+  phantom(frame: Frame | null): void {
+    if (this.#scene) this.#phantom.show(this.#scene, frame);
+    this.#dirty = true;
+  }
+
   layer(name: Layer, shown: boolean): void {
     this.#layers[name].visible = shown;
+    if (name === "ghosts") this.#layers.phantom.visible = shown;
     this.#dirty = true;
   }
 

@@ -37,7 +37,19 @@ const STATES = {
   history: ["history"],
   compare: ["history?from=E1-3&to=E2-3"],
   commit: ["history?to=E2-3"],
-  runs: ["runs", () => panel.locator("[data-row]").first().click()],
+  scrub: ["plan?rev=e2", async () => {
+    await page.locator("#revision").fill("e2");
+    await page.keyboard.press("Enter");
+    await page.getByText(/move over a step/).waitFor();
+    await page.getByLabel("Scrub through the plan").fill("5");
+  }],
+  runs: ["runs", async () => { await panel.locator("[data-row]").first().click(); await panel.getByRole("heading", { name: "Steps" }).waitFor(); }],
+  replay: ["runs", async () => {
+    await panel.locator("[data-row]").first().click();
+    await press("Replay in the twin", panel);
+    await page.getByLabel("Time of the run").fill("4.6");
+    await page.waitForTimeout(300);
+  }],
   palette: ["inspect", () => page.keyboard.press("Control+k")],
   lease: ["inspect", () => page.getByTitle("Who has the bench").click()],
   attention: ["inspect", () => page.getByTitle(/^What needs attention/).click()],

@@ -77,6 +77,19 @@ await step("look at a step", async () => {
   assert.equal(await page.evaluate(() => navigator.clipboard.readText()), "pico plan e1");
 });
 
+await step("scrub the plan", async () => {
+  const slider = panel.getByLabel("Scrub through the plan");
+  await page.waitForFunction(() => !document.querySelector("[aria-label='Scrub through the plan']").disabled);
+  await rows.first().focus();
+  await panel.getByText(/^at .*: .*p2.*, transit$/).waitFor();
+  await slider.fill("10.5");
+  await slider.focus();
+  await panel.getByText(/^at .*lx_125/).waitFor();
+  await accessible("scrub");
+  if (pictures) await page.screenshot({ path: `${pictures}/scrubbed.png` });
+  await panel.getByRole("button", { name: "All steps" }).click();
+});
+
 await step("apply", async () => {
   await panel.getByRole("button", { name: "Apply …" }).click();
   await page.getByRole("dialog").getByText("A laser is asked to emit.").waitFor();
@@ -90,7 +103,38 @@ await step("runs", async () => {
   await tab("Runs").click();
   await rows.first().click();
   await text("Run 1: apply e1");
+  await panel.getByRole("list", { name: "Steps of the run" }).locator("[data-row]").nth(10).waitFor();
   await accessible("runs");
+});
+
+await step("replay the run", async () => {
+  const where = () => page.evaluate(() => window.picoAt("p2"));
+  const after = await where();
+  await panel.getByRole("button", { name: "Replay in the twin" }).click();
+  await page.getByRole("status").getByText("REPLAY").waitFor();
+  const before = await where();
+  assert.ok(Math.hypot(before[0] - after[0], before[1] - after[1]) > 20, "p2 is where it was before the run");
+  await page.keyboard.press("ArrowRight");
+  await page.waitForURL(/run=.*t=7\.98|t=7\.98.*run=/);
+  const placed = await where();
+  assert.ok(Math.hypot(placed[0] - after[0], placed[1] - after[1]) < 2, "p2 is where the first move took it");
+  await accessible("replay");
+  if (pictures) {
+    await page.getByLabel("Time of the run").fill("4.6");
+    await page.screenshot({ path: `${pictures}/replayed.png` });
+  }
+  await page.getByRole("button", { name: "Play", exact: true }).click();
+  await page.getByRole("button", { name: "Pause", exact: true }).click();
+  const shared = page.url();
+  await page.getByRole("button", { name: "Back to live" }).first().click();
+  await page.getByRole("status").getByText("REPLAY").waitFor({ state: "detached" });
+  assert.doesNotMatch(page.url(), /[?&]t=/);
+  const now = await where();
+  assert.ok(Math.hypot(now[0] - after[0], now[1] - after[1]) < 2, "the live bench is where it is");
+  await page.goto(shared);
+  await page.getByRole("status").getByText("REPLAY").waitFor();
+  await page.keyboard.press("Escape");
+  await page.getByRole("status").getByText("REPLAY").waitFor({ state: "detached" });
 });
 
 await step("nudge, see the drift, heal", async () => {
@@ -107,6 +151,17 @@ await step("nudge, see the drift, heal", async () => {
   await page.getByRole("dialog").getByRole("button", { name: "Apply", exact: true }).click();
   await page.getByRole("status").getByText(/^done: [1-9] done/).waitFor();
   await text("Nothing would move");
+});
+
+await step("compare two runs", async () => {
+  await tab("Runs").click();
+  await rows.filter({ hasText: "apply e1" }).last().click();
+  await panel.getByLabel("Find a run").fill("kinematic-never");
+  await panel.getByText("No run is so.").waitFor();
+  await panel.getByLabel("Find a run").fill("");
+  await rows.filter({ hasText: "apply e1" }).first().click({ modifiers: ["Control"] });
+  await panel.getByRole("heading", { name: /^Run \d and run \d$/ }).waitFor();
+  await accessible("compare runs");
 });
 
 await step("compare two commits", async () => {

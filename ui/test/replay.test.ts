@@ -1,0 +1,123 @@
+import { describe, expect, it } from "vitest";
+import { at, doneAt, phaseAt, reel, sceneAt, stepped, telling, translated, turned, type Frames } from "../src/replay/frames";
+import { filtered, late, measured, type OperationRun } from "../src/replay/recorded";
+import { FAR, Playing } from "../src/live/playing";
+import type { Frame } from "../src/live/frame";
+import type { Component, Scene } from "../src/twin/scene";
+import type { RunDocument } from "../src/api/documents";
+
+const part = (index: number, name: string, x: number) =>
+  ({ index, name, type: "mirror", state: "seen", position: [x, 0, 0], quaternion: [1, 0, 0, 0], bodies: [], values: {}, tunables: {} }) as unknown as Component;
+const scene = (components: Component[]) =>
+  ({ schema: "pico.scene/v1", lab: "shel", epoch: 0, rev: 0, time: 0, table: { size: [1200, 750] }, arms: [{ index: 0, name: "arm1", joints: [0, 1], width: 80, links: [] }], components, beams: [] }) as unknown as Scene;
+const half = Math.SQRT1_2;
+const FRAMES: Frames = {
+  schema: "pico.frames/v1", run: "r1", number: 1, goal: "e1", origin: "reconstructed", evidence: "kinematic", seconds: 10,
+  scene: scene([part(0, "m1", 100), part(1, "m2", 200)]),
+  steps: [
+    { operation: "op1", attempt: 1, primitive: "move", component: "m1", address: "m1", robot: "arm1", start: 0, seconds: 6, outcome: "done" },
+    { operation: "op2", attempt: 1, primitive: "set", component: "m2", address: "m2.tip", start: 6, seconds: 4, outcome: "done" },
+  ],
+  moved: [
+    { time: 0, arms: [[0, [0, 1], 80]], bodies: [] },
+    { time: 2, arms: [[0, [1, 1], 40]], bodies: [[0, 100, 0, 0, 1, 0, 0, 0]] },
+    { time: 4, arms: [[0, [3, 1], 40]], bodies: [[0, 300, 0, 50, half, 0, 0, half]] },
+  ],
+  told: [
+    { time: 2, kind: "component", rev: 1, data: { index: 0, name: "m1", state: "held" } },
+    { time: 4, kind: "component", rev: 2, data: { index: 0, name: "m1", state: "seen" } },
+    { time: 4, kind: "beams", rev: 3, data: { beams: [{ lit: true }] } },
+  ],
+  phases: [[0, "arm1", "approach"], [2, "arm1", "lift"], [3, "arm1", "transit"], [4, "arm1", "lower"]],
+  diagnostics: [],
+};
+const film = reel(FRAMES, -1);
+const bodyOf = (time: number, index: number) => at(film, time).bodies.find((one) => one.index === index)!;
+
+describe("a replay", () => {
+  it("goes straight from key to key, and stays before the first and after the last", () => {
+    expect([...at(film, 1).arms[0]!.joints]).toEqual([0.5, 1]);
+    expect(at(film, 1).arms[0]!.gripper).toBe(60);
+    expect([...at(film, 3).arms[0]!.joints]).toEqual([2, 1]);
+    expect(bodyOf(1, 0).position).toEqual([100, 0, 0]);
+    expect(bodyOf(3, 0).position).toEqual([200, 0, 25]);
+    expect(bodyOf(99, 0).position).toEqual([300, 0, 50]);
+    expect(bodyOf(3, 1).position).toEqual([200, 0, 0]);
+  });
+  it("turns the short way round, and keeps quaternions of length one", () => {
+    const found = bodyOf(3, 0).quaternion;
+    expect(found[3]).toBeCloseTo(Math.sin(Math.PI / 8), 6);
+    expect(Math.hypot(...turned([1, 0, 0, 0], [-half, 0, 0, -half], 0.5))).toBeCloseTo(1, 9);
+    expect(turned([1, 0, 0, 0], [-half, 0, 0, -half], 0.5)[0]).toBeGreaterThan(0.9);
+  });
+  it("knows how components stand at a time, whichever way one goes in it", () => {
+    const state = (time: number) => sceneAt(film, time).components[0]!.state;
+    expect([state(0), state(2), state(3.9), state(4), state(1)]).toEqual(["seen", "held", "held", "seen", "seen"]);
+    expect(sceneAt(film, 4).beams).toHaveLength(1);
+    expect(sceneAt(film, 3).epoch).toBe(-1);
+    expect(FRAMES.scene.epoch).toBe(0);
+  });
+  it("goes step by step", () => {
+    expect([stepped(FRAMES, 0, 1), stepped(FRAMES, 6, 1), stepped(FRAMES, 10, 1)]).toEqual([6, 10, 10]);
+    expect([stepped(FRAMES, 10, -1), stepped(FRAMES, 5, -1), stepped(FRAMES, 0, -1)]).toEqual([6, 0, 0]);
+  });
+  it("says what is done, and shows a move with the part in the hand", () => {
+    expect(doneAt(FRAMES, 6).map((one) => one.address)).toEqual(["m2.tip"]);
+    expect(phaseAt(FRAMES, "arm1", 3.5)).toBe("transit");
+    expect([telling(FRAMES, "op1"), telling(FRAMES, "op2"), telling(FRAMES, "op9")]).toEqual([3.5, 10, null]);
+  });
+  it("is shown over another scene by names, and only what is elsewhere in it", () => {
+    const live = scene([part(7, "m2", 200), part(8, "m1", 100)]);
+    const frame = translated(film, 4, live);
+    expect(frame.bodies.map((one) => one.index)).toEqual([8]);
+    expect(frame.arms.map((one) => one.index)).toEqual([0]);
+    expect(translated(film, 0, live).bodies).toEqual([]);
+  });
+});
+
+const frame = (time: number, joint: number, epoch = 5): Frame => ({ epoch, rev: 0, time, arms: [{ index: 0, joints: Float32Array.of(joint), gripper: 0 }], bodies: [] });
+const joint = (playing: Playing, now: number) => playing.at(now).arms[0]!.joints[0]!;
+
+describe("a live bench", () => {
+  it("glides from frame to frame, and never beyond the newest", () => {
+    const playing = new Playing();
+    playing.push(frame(0, 0), 1000);
+    expect(joint(playing, 1000)).toBe(0);
+    playing.push(frame(0.5, 1), 1100);
+    expect(joint(playing, 1150)).toBeCloseTo(0.5, 6);
+    expect(playing.over(1150)).toBe(false);
+    expect([joint(playing, 1200), joint(playing, 9000), playing.over(1200)]).toEqual([1, 1, true]);
+  });
+  it("goes on from where it is shown when the next one comes early", () => {
+    const playing = new Playing();
+    playing.push(frame(0, 0), 1000);
+    playing.push(frame(0.5, 1), 1100);
+    playing.push(frame(1, 3), 1150);
+    expect(joint(playing, 1150)).toBeCloseTo(0.5, 6);
+    expect(joint(playing, 1200)).toBe(3);
+  });
+  it("jumps where nobody knows the way", () => {
+    const playing = new Playing();
+    playing.push(frame(0, 0), 1000);
+    playing.push(frame(FAR + 0.1, 1), 1100);
+    expect(joint(playing, 1100)).toBe(1);
+    playing.push(frame(FAR + 0.2, 2, 6), 1200);
+    expect([joint(playing, 1200), playing.at(1200).epoch]).toEqual([2, 6]);
+  });
+});
+
+describe("runs", () => {
+  const run = (id: string, goal: string, evidence: string) => ({ id, number: 1, goal, evidence, cause: { kind: "apply" }, operator: "ann", outcome: "done", changes: [{ component: "p2", tunable: "angle" }] }) as unknown as RunDocument;
+  const all = [run("a", "e1", "kinematic"), run("b", "e2", "hardware")];
+  it("are found by words and by evidence", () => {
+    expect(filtered(all, "apply E2", "").map((one) => one.id)).toEqual(["b"]);
+    expect(filtered(all, "p2.angle", "kinematic").map((one) => one.id)).toEqual(["a"]);
+    expect(filtered(all, "e1", "hardware")).toEqual([]);
+  });
+  it("say what was measured, and how much later than planned", () => {
+    expect(measured({ component: "cam", measurable: "power", value: 1.23456789, unit: "mW", sigma: 0.0123 })).toBe("1.2346 ± 0.012 mW");
+    expect(measured({ component: "cam", measurable: "image", array: {} })).toBe("an image");
+    const operation = { seconds: 9.3, planned: 8 } as OperationRun;
+    expect([late(operation), late({ ...operation, seconds: 8.01 }), late({ ...operation, planned: null })]).toEqual(["+1.3 s", "", ""]);
+  });
+});
