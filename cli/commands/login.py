@@ -43,13 +43,27 @@ def login(
     session = Session.of(context)
     remote = _meant(session, where, certificate)
     if code:
-        label = f"pico login on {platform.node()}"[:200]
-        token = str(ask(remote, "POST", "/login", {"code": code.strip(), "label": label})["secret"])
+        token = _exchanged(remote, code.strip(), f"pico login on {platform.node()}"[:200])
     else:
         token = _asked(remote.url)
     me = ask(remote, "GET", "/whoami", token=token)
     keep_token(remote.url, token)
     session.show(view, remote.url, me)
+
+
+def _exchanged(remote: Remote, code: str, label: str) -> str:
+    """Return the token that a one-time code is good for; raises PicoError."""
+    from pico.diagnostics import ExitCode, PicoError, error
+    from pico.edge.network.asking import ask
+
+    try:
+        return str(ask(remote, "POST", "/login", {"code": code, "label": label})["secret"])
+    except PicoError as exc:
+        if exc.exit_code is not ExitCode.DENIED:
+            raise
+        text = f"{remote.url} does not take this code: it was used already, is over, or is mistyped"
+        hint = "a code is good for one login; an admin makes another: `pico token invite NAME ROLE@LAB`"
+        raise PicoError(error("token", text, hint=hint), ExitCode.DENIED) from exc
 
 
 def _meant(session: Session, where: str, certificate: Path | None) -> Remote:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from .style import ago, inert, listed
@@ -19,16 +19,17 @@ def text(name: str, found: Mapping[str, Any], *, released: bool | None = None) -
     who = "This checkout has" if found["mine"] else f"{holder['who']} has"
     run = f", for run {holder['run']}" if holder.get("run") else ""
     begins = "" if holder["fenced"] else "; its edge still ends what moved before"
-    return inert(f"{who} {name} since {ago(_moment(holder['since']))}{run}{begins}.{_queue(found)}")
+    return inert(f"{who} {name} since {_since(holder)}{run}{begins}.{_queue(found)}")
 
 
 def _queue(found: Mapping[str, Any]) -> str:
     return f" Next: {listed(list(found['waiting']))}." if found.get("waiting") else ""
 
 
-def _moment(at: Any) -> str:
-    """Return a moment as ISO 8601; it comes as that, or as seconds since 1970."""
-    return datetime.fromtimestamp(at, UTC).isoformat() if isinstance(at, int | float) else str(at)
+def _since(holder: Mapping[str, Any]) -> str:
+    """Return since when somebody has it, by the coordinator's clock alone: that of this computer may be another one."""
+    now = datetime.now(UTC)
+    return ago((now - timedelta(seconds=holder["had"])).isoformat(), now)
 
 
 def data(name: str, found: Mapping[str, Any], *, released: bool | None = None) -> dict[str, Any]:

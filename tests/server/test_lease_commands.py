@@ -87,7 +87,7 @@ def test_from_a_code_to_the_bench_that_commands_mean(coordinator: Served, lab: P
     assert "You are ann" in pico("login", "lab", "--code", code).out
     assert token_of(f"http://127.0.0.1:{coordinator.port}")
     again = pico("login", "lab", "--code", code)
-    assert again.code == ExitCode.DENIED and "does not know who asks" in again.err
+    assert again.code == ExitCode.DENIED and "does not take this code" in again.err
     assert "No benches that you may see" in pico("bench", "list").out
     coordinator.person("ann", "viewer@shel")
     listed = pico("--json", "bench", "list").data
@@ -112,7 +112,7 @@ def test_who_has_the_bench_is_shown_and_only_they_give_it_back(
     at = f"/api/benches/{BENCH}/lease"
     while coordinator.ask("POST", at, bob, {"session": "b", "wait": 0.05})[0] != 200:  # until it is fenced
         pass
-    assert "bob has shel/bench1" in pico("lease", "show").out
+    assert "bob has shel/bench1 since just now" in pico("lease", "show").out
     refused = pico("lease", "release")
     assert refused.code == ExitCode.LOCKED and "pico lease steal --reason" in refused.err
     with pytest.raises(PicoError, match="bob has shel/bench1") as caught:
@@ -133,6 +133,9 @@ def test_who_logs_in_after_somebody_else_in_their_checkout_does_not_have_what_th
     assert "ann has shel/bench1" in pico("lease", "show").out
     assert not pico("--json", "lease", "show").data["mine"]
     assert pico("lease", "release").code == ExitCode.LOCKED
+    monkeypatch.delenv("PICO_TOKEN")
+    monkeypatch.setenv("PICO_TOKEN", "of somebody whose token is over")
+    assert "PICO_TOKEN is set" in pico("lease", "show").err
     monkeypatch.delenv("PICO_TOKEN")
     assert pico("--json", "lease", "show").data["mine"] and "is given back" in pico("lease", "release").out
 

@@ -49,7 +49,7 @@ def test_the_first_admin_invites_somebody_whose_token_is_then_ended(serving: Any
     assert pico("token", "list").stderr.startswith("error[remote]: no coordinator is known here")
     assert "You are admin at" in pico("login", url, "--code", serving["code"]).stdout
     again = pico("login", url, "--code", serving["code"], at="thief")
-    assert again.returncode == 7 and "does not know who asks" in again.stderr
+    assert again.returncode == 7 and "does not take this code" in again.stderr
     invited = json.loads(pico("token", "invite", "anna", "operator@shel", "--json").stdout)
     shown = pico("login", url, "--code", invited["made"]["secret"], at="anna").stdout
     assert "You are anna" in shown and "operator@shel" in shown

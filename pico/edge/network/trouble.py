@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from typing import Any
 
@@ -56,7 +57,12 @@ def _not_let_in(status: int, body: bytes, url: str) -> PicoError:
     why = told.diagnostics[0].summary if told else ""
     if status == 401:
         text = f"{url} does not know who asks{': ' if why else ', or the token has expired'}{why}"
-        return PicoError(error("token", text, hint=f"`pico login {url}`, or set PICO_TOKEN"), ExitCode.DENIED)
+        hint = f"`pico login {url}`, or set PICO_TOKEN"
+        if os.environ.get("PICO_TOKEN"):
+            hint = (
+                "PICO_TOKEN is set, and is taken instead of what `pico login` keeps: unset it, or set one that counts"
+            )
+        return PicoError(error("token", text, hint=hint), ExitCode.DENIED)
     hint = told.diagnostics[0].hint if told else None
     text = why or f"{url} does not let you do this"
     return PicoError(error("role", text, hint=hint or "an admin of the lab gives roles: `pico token`"), ExitCode.DENIED)

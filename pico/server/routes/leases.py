@@ -67,7 +67,8 @@ async def benches(request: Request) -> list[dict[str, Any]]:
 
 @router.get(AT, **needs("viewer"))
 async def show(request: Request, lab: str, bench: str) -> dict[str, Any]:
-    """Say who has a bench, whether that is who asks (`you`), since when, and who is next."""
+    """Say who has a bench, whether that is who asks (`you`), since when and for how long (`had` [s], by the clock here),
+    and who is next."""
     found = _shown(*books(request.app).leases.shown(f"{lab}/{bench}"))
     if found["holder"]:
         found["holder"]["you"] = found["holder"]["who"] == request.state.principal.name
@@ -162,6 +163,6 @@ def _shown(row: Lease, now: float, since: float) -> dict[str, Any]:
     grant = row.grant if row.grant and row.grant.expires >= now else None
     holder = grant and {
         "who": grant.holder.who, "session": grant.holder.session, "token": grant.token, "since": since,
-        "left": grant.expires - now, "fenced": grant.fenced, "run": grant.job,
+        "had": now - since, "left": grant.expires - now, "fenced": grant.fenced, "run": grant.job,
     }  # fmt: skip
     return {"bench": row.bench, "holder": holder, "waiting": [asker.who for asker in row.queue]}

@@ -24,7 +24,11 @@ class Edges:
     def invited(self, bench: str, by: str) -> tuple[str, float]:
         """Return a code with which the edge of a bench (`lab/name`) is enrolled once, and when it is over [s since
         1970]; raises PicoError for what can be no name."""
-        lab, _, name = bench.partition("/")
+        lab, slash, name = bench.partition("/")
+        if not slash:
+            raise PicoError(
+                error("usage", f"`{bench[:80]}` names no bench", hint=f"LAB/BENCH, such as `lab/{bench[:64]}`")
+            )
         require_name(lab, "a lab")
         require_name(name, "a bench")
         code = new_secret("edge")
