@@ -3,8 +3,8 @@
 `pico teleop` runs in a terminal of this program, on a bench that it reaches through a coordinator; a key is held until
 something moves, then the client is frozen (SIGSTOP), or its line is cut, or loses what it says. Printed is how long
 after the last set-point that the edge took something moved last, both by the edge's own clock, and how long after the
-deed, which is what a person sees. Exit code 1 where something moved more than 200 ms after that set-point, or moved on
-once the client or its line was back.
+deed, which is what a person sees. Exit code 3 where something moved more than 200 ms after that set-point, 1 where it
+moved on once the client or its line was back.
 """
 
 from __future__ import annotations
@@ -156,7 +156,7 @@ def main() -> int:
                 late += told(how, stops(network, how, count, draw)) if count else 0
         finally:
             network.close()
-    return 1 if late else 0
+    return 3 if late else 0
 
 
 if __name__ == "__main__":

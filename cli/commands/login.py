@@ -35,27 +35,25 @@ def login(
       pico login https://lab.example --code 3f7c-91aa
       pico login lab < token
     """
-    import platform
-
     from pico.edge.network.asking import ask
     from pico.edge.network.tokens import keep_token
 
     session = Session.of(context)
     remote = _meant(session, where, certificate)
-    if code:
-        token = _exchanged(remote, code.strip(), f"pico login on {platform.node()}"[:200])
-    else:
-        token = _asked(remote.url)
+    token = _exchanged(remote, code.strip()) if code else _asked(remote.url)
     me = ask(remote, "GET", "/whoami", token=token)
     keep_token(remote.url, token)
     session.show(view, remote.url, me)
 
 
-def _exchanged(remote: Remote, code: str, label: str) -> str:
+def _exchanged(remote: Remote, code: str) -> str:
     """Return the token that a one-time code is good for; raises PicoError."""
+    import platform
+
     from pico.diagnostics import ExitCode, PicoError, error
     from pico.edge.network.asking import ask
 
+    label = f"pico login on {platform.node()}"[:200]
     try:
         return str(ask(remote, "POST", "/login", {"code": code, "label": label})["secret"])
     except PicoError as exc:

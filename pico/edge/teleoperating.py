@@ -31,6 +31,9 @@ LOST = 5.0
 """Seconds without a word after which nobody is there who steers."""
 POLL = 0.02
 """Seconds between two looks at whether somebody still steers, asked to stop, or fell silent."""
+_LATE = 0.02
+"""By so much a step may be over later than it should, where this computer has other things to do [s]: a frame that is
+older than SILENCE leaves for it authorizes none, and the next one comes soon."""
 _SURE = 2
 """So often in a row must the silence be found while an arm moves by itself: frames may wait for their turn here."""
 _QUIET = SILENCE - (_SURE + 0.5) * POLL
@@ -167,7 +170,7 @@ class _Steered:
             self.presses.listen(now)
             if self.presses.gate.silent(now) > LOST:
                 return self._lost(f"nobody who steers was heard of for {LOST:g} s")
-            frame = self.presses.gate.authorized(now, STEP_SECONDS)
+            frame = self.presses.gate.authorized(now, STEP_SECONDS + _LATE)
             if frame is None:
                 await self._wait()
                 continue

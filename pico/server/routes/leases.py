@@ -67,7 +67,7 @@ async def benches(request: Request) -> list[dict[str, Any]]:
 
 @router.get(AT, **needs("viewer"))
 async def show(request: Request, lab: str, bench: str) -> dict[str, Any]:
-    """Say who has a bench, whether that is who asks (`you`), since when and for how long (`had` [s], by the clock here),
+    """Say who has a bench, whether that is who asks (`you`), since when, for how long by the clock here (`had` [s]),
     and who is next."""
     found = _shown(*books(request.app).leases.shown(f"{lab}/{bench}"))
     if found["holder"]:
