@@ -20,6 +20,11 @@ from pico.model.trace.event import Event
 from pico.model.trace.expectation import Expected, GoalRead, goal_read
 from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 
+OPEN = frozenset({"optimize", "operator", "teleoperate"})
+"""What takes as long as light or a person does."""
+SLOW, SLACK = 1.5, 2.0
+"""An operation is told to be slow that took so many times as long as foretold, and so much more [s]."""
+
 
 def run_report(
     setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, able: Capabilities
@@ -59,6 +64,7 @@ def run_report(
             *told_by(events),
             *_left_set(setup, plan, events, seen),
             *_beyond_trim(setup, remaining, right),
+            *_later(plan, events),
         ),
     )
 
@@ -118,6 +124,18 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
         if (change.counts or (plan.asked and not change.tolerated))
         and (whole or (change.component, change.tunable) in asked)
     )
+
+
+def _later(plan: Plan, events: Sequence[Event]) -> Iterator[Diagnostic]:
+    """Yield what took notably longer than the plan foretold, but for what is OPEN."""
+    foretold = {op.id: op for op in plan.operations if op.seconds > 0 and not (op.aligns or op.primitive in OPEN)}
+    for event in events:
+        op, took = foretold.get(event.operation or ""), float(event.data.get("seconds") or 0.0)
+        if op is None or event.kind != "operation_done" or took <= SLOW * op.seconds + SLACK:
+            continue
+        text = f"{op.primitive} {op.address} took {took:.1f} s, and {op.seconds:.1f} s was foretold"
+        hint = "`pico runs show` has each operation beside its forecast; does something drag, or was it tried again?"
+        yield Diagnostic("note", "slow", text, hint=hint, address=op.address)
 
 
 def _beyond_trim(

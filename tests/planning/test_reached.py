@@ -100,3 +100,15 @@ def test_a_plan_that_only_sets_a_part_down_is_of_a_state() -> None:
     assert [op.reason.kind for op in plan.operations] == ["held", "parked"]
     assert plan.operations[0].arguments["to"] == {"pose": {"x": 166, "y": 66, "yaw": 45}}
     assert not plan.asked
+
+
+@pytest.mark.parametrize(("longer", "told"), [(1.9, False), (1.0, False), (30.0, True)])
+def test_what_took_notably_longer_than_foretold_is_told(longer: float, told: bool) -> None:
+    start = seen("a", pose=Pose(500, 250, 0))
+    plan = planned(SETUP, start, THERE)
+    (move,) = (op for op in plan.operations if op.primitive == "move")
+    data = {"seconds": move.seconds + longer}
+    ended = Event(run="r", seq=1, kind="operation_done", time=0.0, operation=move.id, component="a", data=data)
+    report = run_report(SETUP, plan, (ended, replace(OVER, seq=2)), SEEN, wall=0.0, able=ABLE)
+    said = [(d.severity, d.code, f"{move.seconds:.1f} s was foretold" in d.summary) for d in report.diagnostics]
+    assert said == ([("note", "slow", True)] if told else [])

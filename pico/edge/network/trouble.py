@@ -9,6 +9,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.network.remotes import Far
+from pico.edge.network.tokens import VARIABLE
 from pico.edge.protocol import Cut
 
 EXTRA = "pip install 'pico-lab[remote]'"
@@ -57,12 +58,10 @@ def _not_let_in(status: int, body: bytes, url: str) -> PicoError:
     why = told.diagnostics[0].summary if told else ""
     if status == 401:
         text = f"{url} does not know who asks{': ' if why else ', or the token has expired'}{why}"
-        hint = f"`pico login {url}`, or set PICO_TOKEN"
-        if os.environ.get("PICO_TOKEN"):
-            hint = (
-                "PICO_TOKEN is set, and is taken instead of what `pico login` keeps: unset it, or set one that counts"
-            )
-        return PicoError(error("token", text, hint=hint), ExitCode.DENIED)
+        right = f"`pico login {url}`, or set {VARIABLE}"
+        if os.environ.get(VARIABLE):
+            right = f"{VARIABLE} is set, and is taken before what `pico login` keeps: unset it, or set one that counts"
+        return PicoError(error("token", text, hint=right), ExitCode.DENIED)
     hint = told.diagnostics[0].hint if told else None
     text = why or f"{url} does not let you do this"
     return PicoError(error("role", text, hint=hint or "an admin of the lab gives roles: `pico token`"), ExitCode.DENIED)
