@@ -60,6 +60,7 @@ SMALLEST = {
     "null_of": "--seeds 1",
     "omissions": "--cases 30",
     "optics_references": "",
+    "page": "--opens 1 --picks 2 --pages 1 --seconds 1",
     "pick_and_place": "--moves 1 --sight exact",
     "placements": "--moves 1 --sight exact",
     "planning_fuzz": "--cases 5 --most 8",

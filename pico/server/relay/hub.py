@@ -5,8 +5,8 @@ from __future__ import annotations
 import asyncio
 import itertools
 import secrets
-from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from contextlib import suppress
+from collections.abc import AsyncIterator, Awaitable, Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from pico.diagnostics import PicoError, error
@@ -29,7 +29,7 @@ class EdgeLine:
         self.bench, self.hello, self._send = bench, hello, send
         self.fenced, self.moving = int(hello["fenced"]), ""
         self.over = asyncio.Event()
-        self._waiting: dict[str, asyncio.Queue[Document | None]] = {}
+        self._waiting: dict[str, Callable[[Document | None], None]] = {}
 
     async def told(self, document: Document) -> None:
         """Say something; raises Gone."""
@@ -44,8 +44,7 @@ class EdgeLine:
     async def answers(self, call: str, document: Document) -> AsyncIterator[Document]:
         """Send a call and yield its answers; raises Gone where the edge is cut off meanwhile."""
         answers: asyncio.Queue[Document | None] = asyncio.Queue()
-        self._waiting[call] = answers
-        try:
+        with self.hearing(call, answers.put_nowait):
             await self.told({"id": call, **document})
             while True:
                 answer = await answers.get()
@@ -54,36 +53,37 @@ class EdgeLine:
                 yield answer
                 if is_last(answer):
                     return
+
+    @contextmanager
+    def hearing(self, call: str, hear: Callable[[Document | None], None]) -> Iterator[None]:
+        """Have the answers to a call heard at once, while the block lasts: None where the edge is cut off."""
+        self._waiting[call] = hear
+        try:
+            yield
         finally:
-            if self._waiting.get(call) is answers:
+            if self._waiting.get(call) is hear:
                 del self._waiting[call]
 
     async def let_go(self, call: str) -> None:
         """Have the edge let go of what a call took, and wait until it has; where it is cut off it does so itself."""
         answers: asyncio.Queue[Document | None] = asyncio.Queue()
-        self._waiting[call] = answers
-        try:
+        with self.hearing(call, answers.put_nowait), suppress(Gone, TimeoutError):
             await self.told({"id": call, "close": True})
             async with asyncio.timeout(CLOSING):
                 while (answer := await answers.get()) is not None and "closed" not in answer:
                     pass
-        except (Gone, TimeoutError):
-            pass
-        finally:
-            if self._waiting.get(call) is answers:
-                del self._waiting[call]
 
     def heard(self, said: dict[str, Any]) -> None:
         """Hear an answer."""
         waiting = self._waiting.get(str(said.pop("id", "")))
         if waiting is not None:
-            waiting.put_nowait(said)
+            waiting(said)
 
     def end(self) -> None:
         """Hear that the edge is cut off."""
         self.over.set()
-        for waiting in self._waiting.values():
-            waiting.put_nowait(None)
+        for waiting in tuple(self._waiting.values()):
+            waiting(None)
 
 
 class Hub:

@@ -21,6 +21,10 @@ Change = Callable[[Lease, float, bool], Turn]
 _ROW = select(benches).where(benches.c.bench == bindparam("of"))
 _LOCKED = _ROW.with_for_update()
 _QUEUE = select(waiting).where(waiting.c.bench == bindparam("of")).order_by(waiting.c.number)
+_QUEUED = benches.c.granted.is_(None) & benches.c.bench.in_(select(waiting.c.bench)) & benches.c.met
+_DUE = (
+    select(benches.c.bench).where(or_(benches.c.expires < bindparam("now"), _QUEUED)).with_for_update(skip_locked=True)
+)
 
 
 class Leases:
@@ -103,13 +107,7 @@ class Leases:
         """Return the benches of which a lease is over, or that are free and waited for; without those that another
         coordinator has in hand just then."""
         with self._database.reading() as connection:
-            now = self._database.now(connection)
-            queued = select(waiting.c.bench)
-            over = or_(
-                benches.c.expires < now, benches.c.granted.is_(None) & benches.c.bench.in_(queued) & benches.c.met
-            )
-            asked = select(benches.c.bench).where(over).with_for_update(skip_locked=True)
-            return tuple(connection.execute(asked).scalars())
+            return tuple(connection.execute(_DUE, {"now": self._database.now(connection)}).scalars())
 
     def promoted(self, bench: str) -> Turn:
         """End what has lapsed, and give a free bench to the first who waits."""

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from sqlalchemy import Connection, Row, delete, insert, select, update
+from sqlalchemy import Connection, Row, bindparam, delete, insert, select, update
 
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.server.access.principal import Principal, Right, require_name, unauthenticated
@@ -28,6 +28,15 @@ class Issued:
     id: str
     secret: str
     expires_at: float
+
+
+_LETS_IN = tokens.c.kind.in_(LET_IN)
+# what is asked for each second by everything that goes on is put together once
+_TOKEN = select(tokens).where(tokens.c.hash == bindparam("hash"), _LETS_IN)
+_SEATED = select(tokens).where(tokens.c.id == bindparam("id"), _LETS_IN)
+_SESSION = select(sessions).where(sessions.c.hash == bindparam("hash"))
+_RIGHTS = select(rights.c.lab, rights.c.role).where(rights.c.principal == bindparam("name"))
+_DISABLED = select(principals.c.disabled).where(principals.c.name == bindparam("name"))
 
 
 class People:
@@ -136,7 +145,8 @@ class People:
     def known(self, secret: str) -> Principal | None:
         """Return whom a token lets in; None for one that is none, or none any more."""
         with self._database.reading() as connection:
-            return _known(connection, self._database.now(connection), tokens.c.hash == fingerprint(secret))
+            row = connection.execute(_TOKEN, {"hash": fingerprint(secret)}).first()
+            return _let_in(connection, self._database.now(connection), row)
 
     # browsers
 
@@ -156,10 +166,10 @@ class People:
         """Return whom a session lets in; None for one that is none, or none any more."""
         with self._database.reading() as connection:
             now = self._database.now(connection)
-            row = connection.execute(select(sessions).where(sessions.c.hash == fingerprint(secret))).first()
+            row = connection.execute(_SESSION, {"hash": fingerprint(secret)}).first()
             if row is None or row.ended_at is not None or row.expires_at <= now:
                 return None
-            return _known(connection, now, tokens.c.id == row.token)
+            return _let_in(connection, now, connection.execute(_SEATED, {"id": row.token}).first())
 
     def closed(self, secret: str) -> bool:
         """End a session; return whether there was one that lasted."""
@@ -220,7 +230,10 @@ def _fade(connection: Connection, now: float, which: Any) -> None:
 
 
 def _known(connection: Connection, now: float, which: Any) -> Principal | None:
-    row = connection.execute(select(tokens).where(which, tokens.c.kind.in_(LET_IN))).first()
+    return _let_in(connection, now, connection.execute(select(tokens).where(which, _LETS_IN)).first())
+
+
+def _let_in(connection: Connection, now: float, row: Any) -> Principal | None:
     if row is None or row.ended_at is not None or row.expires_at <= now:
         return None
     if row.kind != "desk" and _disabled(connection, row.principal):
@@ -235,12 +248,12 @@ def _carried(connection: Connection, row: Any) -> frozenset[Right]:
 
 
 def _rights(connection: Connection, name: str) -> frozenset[Right]:
-    found = connection.execute(select(rights.c.lab, rights.c.role).where(rights.c.principal == name))
+    found = connection.execute(_RIGHTS, {"name": name})
     return frozenset(Right(row.lab, row.role) for row in found)
 
 
 def _disabled(connection: Connection, name: str) -> bool:
-    return bool(connection.execute(select(principals.c.disabled).where(principals.c.name == name)).scalar())
+    return bool(connection.execute(_DISABLED, {"name": name}).scalar())
 
 
 def _shown(row: Mapping[Any, Any]) -> dict[str, Any]:
