@@ -1,13 +1,20 @@
-"""The simulator, and the rest, 10: `pico git install`, `pico git uninstall` and `pico git attach`."""
+"""The simulator, and the rest, 10: `pico git install`, `uninstall`, `attach`, and git's own `branch` and `tag`."""
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
+
+from pico.diagnostics import PicoError, error
 
 from ..arguments import group
 from ..session import Session
-from ..views import attached
+from ..views import attached, named
 from ..views import wired as view
+
+Name = Annotated[str, typer.Argument(metavar="NAME", help="What it is to be called.")]
+At = Annotated[str, typer.Argument(metavar="REV", help="Where; HEAD where nothing is said.")]
 
 app = group(
     help="Let git merge manifests by PICO, or not; attach a worktree.", examples=("pico git install", "pico git attach")
@@ -45,6 +52,41 @@ def attach(context: typer.Context) -> None:
     session = Session.of(context)
     root = session.history().folder.root
     session.show(attached, root, attach(root))
+
+
+@app.command()
+def branch(context: typer.Context, name: Name, revision: At = "HEAD") -> None:
+    """Begin a branch at a revision, as `git branch` does.
+
+    Nothing is checked out: `pico checkout NAME` goes there. For who has PICO alone, as at a desk of a coordinator.
+
+    Examples:
+      pico git branch tilted e1
+    """
+    _name(context, "branch", name, revision)
+
+
+@app.command()
+def tag(context: typer.Context, name: Name, revision: At = "HEAD") -> None:
+    """Give a revision a name that stays, as `git tag` does.
+
+    Examples:
+      pico git tag E1-4
+    """
+    _name(context, "tag", name, revision)
+
+
+def _name(context: typer.Context, what: str, name: str, revision: str) -> None:
+    from pico.history.git.command import run
+
+    session = Session.of(context)
+    root = session.history().folder.root
+    asked = ["rev-parse", "--verify", "--quiet", "--end-of-options", f"{revision}^{{commit}}"]
+    commit = run(root, asked, doing=f"find {revision}", ends=(0, 1)).strip()
+    if not commit:
+        raise PicoError(error("revision", f"`{revision[:60]}` is no revision", hint="`pico log` lists them"))
+    run(root, [what, "--end-of-options", name, commit], doing=f"make the {what} {name}")
+    session.show(named, what, name, commit)
 
 
 @app.command()

@@ -35,6 +35,18 @@ def at(pico: Pico, folder: Path, *words: str, code: int = 0) -> str:
     return answer.out + answer.err
 
 
+def test_a_branch_and_a_tag_are_made_as_git_makes_them(shel: Path, pico: Pico) -> None:
+    here = git(shel, "rev-parse", "HEAD")
+    assert "The branch tilted is at" in at(pico, shel, "git", "branch", "tilted", "e1")
+    assert (
+        pico("-C", str(shel), "--json", "git", "tag", "E1-9").data["commit"] == here == git(shel, "rev-parse", "E1-9")
+    )
+    assert (git(shel, "rev-parse", "tilted"), git(shel, "rev-parse", "HEAD")) == (git(shel, "rev-parse", "e1"), here)
+    assert "`nowhere` is no revision" in at(pico, shel, "git", "branch", "x", "nowhere", code=1)
+    assert "already exists" in at(pico, shel, "git", "tag", "E1-9", code=1)
+    assert "not a valid" in at(pico, shel, "git", "branch", "a..b", code=1)
+
+
 def test_the_first_that_moves_has_the_bench_and_the_other_one_plans_against_it(
     shel: Path, other: Path, pico: Pico
 ) -> None:

@@ -56,6 +56,18 @@ def test_who_may_not_change_the_lab_looks_at_its_main_branch(desk: Desked) -> No
     assert desired != {r["component"]: r["desired"] for r in desk.said(vera, "status")[0]["rows"]}
 
 
+def test_a_branch_and_a_tag_are_made_and_what_only_says_what_it_would_do_is_no_run(desk: Desked) -> None:
+    anna = desk.served.person("anna", "operator")
+    assert desk.said(anna, "git branch", "tilted", "e1")[0]["commit"] == desk.git("rev-parse", "tilted")
+    desk.said(anna, "git tag", "E1-9", "e1")
+    assert desk.git("rev-parse", "tilted") == desk.git("rev-parse", "e1") == desk.git("rev-parse", "E1-9")
+    assert desk.at(anna, "git branch", "tilted", "e2")[1][-1]["exit"] != 0
+    _, before = desk.served.ask("GET", "/api/labs/shel/desk/runs", anna)
+    written = desk.said(anna, "move", "lx_100", "x=800", "y=600", "yaw=0", "--manifest", "--dry-run")[0]
+    assert written["changes"] and not any(r["edited"] for r in desk.said(anna, "status")[0]["rows"])
+    assert desk.served.ask("GET", "/api/labs/shel/desk/runs", anna)[1] == before
+
+
 def test_what_is_no_word_of_a_command_is_refused_before_anything_starts(desk: Desked) -> None:
     anna = desk.served.person("anna", "operator")
     refused = {
@@ -66,6 +78,7 @@ def test_what_is_no_word_of_a_command_is_refused_before_anything_starts(desk: De
         "commit": (["-F", "/etc/passwd"], ["-mx"], ["-m=x"], ["-e"], ["-m"], ["--message", "-C"]),
         "run": (["/etc/passwd"], ["--junit=x"], ["--detach"], ["x/../../y"]),
         "log": (["--output=x"], ["--format=x"], ["-nx"]),
+        "git branch": (["web/ben"], ["detached/x"], ["-d", "main"], ["--", "../x"]),
         "validate": (["/etc/passwd"], ["..\\x"]),
     }  # fmt: skip
     for command, wordings in refused.items():

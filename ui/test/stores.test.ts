@@ -3,6 +3,7 @@ import { filled, split } from "../src/api/client";
 import type { Operation, RunDocument, Status } from "../src/api/documents";
 import { needs, type Known } from "../src/stores/attention";
 import { mark, number, python, seconds, shown, sign, typed } from "../src/stores/say";
+import { moved, stepped, tagged } from "../src/stores/moving";
 import { edited, wrong } from "../src/stores/editing";
 import { changed, type Scene, type Tunable } from "../src/twin/scene";
 import { difference } from "../src/twin/ruler";
@@ -60,6 +61,18 @@ describe("what needs attention", () => {
     ]);
     expect(found.at(-1)!.text).toBe("1 edit in no commit: p1.angle");
     expect(found[3]!.text).toMatch(/^1 goal found by light is not reached any more: p2.angle/);
+  });
+});
+
+describe("what is moved by hand", () => {
+  const holes = { pitch: 25, first: [12.5, 12.5] } as never;
+  it("ends at a hole, or at a tenth", () => {
+    expect(stepped({ x: 26, y: 40, yaw: 370 }, holes)).toEqual({ x: 37.5, y: 37.5, yaw: 10 });
+    expect(stepped({ x: 26.04, y: -0.01, yaw: -180 }, null)).toMatchObject({ x: 26, yaw: 180 });
+  });
+  it("is the command that writes it", () => {
+    expect(moved("p2", { x: 500, y: 420.5, yaw: -15 })).toEqual(["move", "p2", "x=500", "y=420.5", "yaw=-15", "--manifest"]);
+    expect(tagged({ x: 500, y: 420.5, yaw: -15 })).toBe("x 500.0  y 420.5 mm  -15.0°");
   });
 });
 

@@ -22,7 +22,7 @@ from pico.server.desk import places
 from pico.server.desk.hiding import Hiding
 from pico.server.desk.jobs import About, Job, code_of, forget_old, read
 from pico.server.desk.warm import Warm
-from pico.server.desk.words import COMMANDS, checked
+from pico.server.desk.words import COMMANDS, checked, goes_on
 from pico.server.git.hosting import environment as git_environment
 from pico.server.git.hosting import repository
 from pico.server.store.books import Books
@@ -80,7 +80,6 @@ class Desks:
 
     async def begin(self, me: Principal, wanted: Wanted) -> Job:
         """Begin a command, and return it; raises PicoError before anything begins."""
-        command = COMMANDS[wanted.command]
         words = checked(wanted.command, wanted.words)
         session = me.asker(wanted.session or f"desk-{secrets.token_hex(6)}").session.partition("/")[2]
         bench = self._bench(wanted)
@@ -97,7 +96,7 @@ class Desks:
             folder = place if wanted.lab in self._desking.local else places.lab_in(place, wanted.lab)
             environment = self._environment(me, session, token.secret, job, local=wanted.lab in self._desking.local)
             confined = () if wanted.lab in self._desking.local else (place, self._bare(wanted.lab), job.folder)
-            if command.lasting:
+            if goes_on(wanted.command, words):
                 job.note()
                 self.runs[job.about.id] = job
                 for old in forget_old(self.runs, wanted.lab):
@@ -131,7 +130,7 @@ class Desks:
         finally:
             if not job.ended.is_set() and command.role == "viewer":
                 self._warm.signal(job.number, signal.SIGKILL)
-            if not command.lasting:
+            if not goes_on(job.about.command, job.about.words):
                 self._keep(_forget(job))
 
     def cancel(self, job: Job) -> None:
@@ -169,7 +168,7 @@ class Desks:
 
     def _made(self, job: Job) -> Path:
         """Return a folder for what a command says."""
-        if COMMANDS[job.about.command].lasting:
+        if goes_on(job.about.command, job.about.words):
             folder = self._folder / job.about.lab / "runs" / job.about.id
         else:
             folder = self._folder / job.about.lab / "once" / job.about.id
@@ -188,7 +187,7 @@ class Desks:
                 )
             return local
         bare, folder, command = self._bare(wanted.lab), self._folder / wanted.lab, COMMANDS[wanted.command]
-        if wanted.at is not None and command.role != "viewer" and not command.lasting:
+        if wanted.at is not None and command.role != "viewer" and not goes_on(wanted.command, wanted.words):
             hint = "without `at`, on the desk"
             raise PicoError(error("usage", f"`pico {wanted.command}` changes no revision of the past", hint=hint))
         async with self._locks.setdefault(wanted.lab, asyncio.Lock()):
@@ -208,7 +207,7 @@ class Desks:
         looks = command.role == "viewer"
         if looks and known is not None and time.monotonic() < until:
             return known
-        lasts = LASTING if command.lasting else LASTS + AGAIN
+        lasts = LASTING if goes_on(job.about.command, job.about.words) else LASTS + AGAIN
         label = "desk" if looks else f"desk: pico {job.about.command}"
         made = await self._books.do(
             people.issued, me.name, lasts, by=me.name, kind="look" if looks else "desk", label=label, scope=me.rights,
@@ -247,7 +246,7 @@ class Desks:
         status = ended.result()
         if command.role != "viewer":
             await self._books.do(self._books.people.revoked, tokens[1], by="coordinator")
-        if command.lasting:
+        if goes_on(job.about.command, job.about.words):
             new = runs_begun(runs[0])[runs[1] :]
             job.note(exit=code_of(status), ended_at=time.time(), why=why, runs=new)
             shutil.rmtree(job.folder / "tmp", ignore_errors=True)
@@ -261,7 +260,7 @@ class Desks:
         """Wait until a command has ended; end it where it goes on for too long, and as Ctrl-C does, with time for a
         safe end, once a token is over: the one by which it was begun, or its own. Return why it was ended."""
         loop, why = asyncio.get_running_loop(), ""
-        until = loop.time() + (LASTING if COMMANDS[job.about.command].lasting else LASTS)
+        until = loop.time() + (LASTING if goes_on(job.about.command, job.about.words) else LASTS)
         while not ended.done():
             if (left := until - loop.time()) <= 0:
                 self._warm.signal(job.number, signal.SIGKILL)

@@ -15,6 +15,8 @@ from pico.diagnostics import PicoError, did_you_mean, error
 MOST, LONGEST = 200, 10_000
 """How many words a command has at most, and how many characters a word."""
 _NUMBER = re.compile(r"-[0-9.][0-9.,eE+-]*")
+_DESKS = ("web/", "detached/")
+"""With what the branches begin that desks and detached runs have."""
 _TEXT = re.compile(r"[^\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]*")
 
 
@@ -78,6 +80,8 @@ COMMANDS: Mapping[str, Command] = {
     "cherry-pick": _edits("--mainline=", "--no-commit"),
     "commit": _edits(*_MESSAGE, "--capture", "--planned", "--meta=", "--allow-empty"),
     "laser": _looks(),
+    "git branch": _edits(),
+    "git tag": _edits(),
     "laser disarm": _edits(),
     "merge": _edits(*_MESSAGE),
     "note": _edits(prose=True),
@@ -112,9 +116,17 @@ COMMANDS: Mapping[str, Command] = {
 """The commands of a desk by name. Where a role is not enough at the bench, that says so."""
 
 
+def goes_on(name: str, words: Sequence[str]) -> bool:
+    """Return whether a command goes on though nobody listens, and is listed: what only says what it would do, or writes
+    into the manifest alone, does not."""
+    return COMMANDS[name].lasting and not {"--dry-run", "--manifest"} & set(words)
+
+
 def checked(name: str, words: Sequence[str]) -> tuple[str, ...]:
     """Return the words of a command as they are given to it; raises PicoError for one that it does not take here."""
     command, found, left = COMMANDS[name], list[str](), list(words)
+    if name.startswith("git ") and words and words[0].startswith(_DESKS):
+        raise _refused(name, f"no name that begins as those of desks do, {', '.join(_DESKS)}")
     if len(left) > MOST:
         raise _refused(name, f"more than {MOST} words")
     while left:

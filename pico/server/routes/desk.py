@@ -13,7 +13,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.server.access.principal import Principal
 from pico.server.desk.desks import Desks, Wanted
 from pico.server.desk.jobs import About, Job
-from pico.server.desk.words import COMMANDS
+from pico.server.desk.words import COMMANDS, goes_on
 from pico.server.routes.admitting import needs, routed, while_known
 from pico.server.routes.people import Body
 
@@ -46,12 +46,13 @@ def _route(name: str) -> None:
         me: Principal = request.state.principal
         desks = _desks(request)
         wanted = Wanted(lab, name, asked.words, asked.session, asked.bench, asked.at)
-        if asked.detach and not command.lasting:
+        lasting = goes_on(name, asked.words)
+        if asked.detach and not lasting:
             raise PicoError(error("usage", f"`pico {name}` is over at once", hint="without `detach`"))
         job = await desks.begin(me, wanted)
         if asked.detach:
             return JSONResponse({"run": job.about.id}, 202)
-        headers = {"x-pico-run": job.about.id} if command.lasting else None
+        headers = {"x-pico-run": job.about.id} if lasting else None
         return StreamingResponse(while_known(request, me, desks.followed(job)), headers=headers, media_type=NDJSON)
 
     lasts = " It goes on though nobody listens; `x-pico-run` names it." if command.lasting else ""

@@ -87,6 +87,11 @@ export interface Log { schema: "pico.log/v1"; head: string | null; commits: Comm
 export interface Diff { schema: "pico.diff/v1"; from: string; to: string; changes: Change[] }
 export interface Revision extends Omit<Commit, "lane" | "links"> { schema: "pico.revision/v1"; state: Record<string, PartState> }
 
+/** Which commit changed a tunable last. */
+export interface Leaf { component: string; tunable: string; value: Value; unit: string; last: { commit: string; name: string; author: string; time: string; summary: string; how: { kind: string }; text: string } | null }
+export interface Blame { schema: "pico.blame/v1"; leaves: Leaf[] }
+export interface Notes { schema: "pico.notes/v1"; part: string; notes: { text: string; day: string; author: string }[] }
+
 export interface Laser {
   laser: string;
   laser_class: string;

@@ -3,6 +3,7 @@
 import { address, TABS } from "./address.svelte";
 import { bench } from "./bench.svelte";
 import { desk } from "./desk.svelte";
+import { hand } from "./hand.svelte";
 import { session } from "./session.svelte";
 import { theme } from "./theme.svelte";
 
@@ -19,6 +20,7 @@ export function actions(): Action[] {
     { title: "Look anew (status)", key: "R", run: () => void desk.look() },
     { title: yours ? "Give the bench back" : "Take the bench", barred: session.may("operator", bench.lab) ? null : "needs the role operator",
       run: () => void (yours ? bench.release() : bench.take()) },
+    { title: hand.on ? "End editing by hand" : "Edit by hand: drag and turn components", barred: hand.barred, run: hand.turn },
     { title: theme.shown === "dark" ? "Light colours" : "Dark colours", run: theme.turn },
     ...(bench.scene?.components ?? []).map((one) => ({ title: `Component ${one.name}`, run: () => address.go("inspect", { part: one.name }) })),
     ...(desk.log?.commits ?? []).flatMap((one) => one.refs).map((ref) => ({
@@ -37,6 +39,9 @@ export function keyed(event: KeyboardEvent, palette: () => void): (() => void) |
   if (ctrl && event.key === ".") return () => void bench.stop();
   if (ctrl && event.key.toLowerCase() === "k") return palette;
   if (typing || ctrl || event.altKey) return null;
+  const elsewhere = event.target instanceof HTMLElement && event.target.closest(event.key === "Enter" ? "button, summary, dialog" : "[data-row], [role=tablist], dialog");
+  const does = elsewhere ? null : hand.key(event);
+  if (does) return does;
   const tab = TABS[Number(event.key) - 1];
   if (tab) return () => address.go(tab);
   if (event.key === "/") return () => document.getElementById("filter")?.focus();

@@ -164,7 +164,7 @@ class Desk {
   }
 }
 
-const TWO = ["catalog", "laser", "recipe", "runs", "sim"];
+const TWO = ["catalog", "git", "laser", "recipe", "runs", "sim"];
 /** Commands that are said alone, too. */
 const ALONE = ["laser"];
 

@@ -14,10 +14,10 @@ export interface Ghost {
   /** Degrees, counter-clockwise from above. */
   yaw: number;
   label: string;
-  tone: "to" | "from" | "staged";
+  tone: "to" | "from" | "staged" | "bad";
 }
 
-const TONES = { to: 0x1f8fff, from: 0x8a94a0, staged: 0xd98e04 };
+const TONES = { to: 0x1f8fff, from: 0x8a94a0, staged: 0xd98e04, bad: 0xe0413a };
 
 /** A part where it is to stand, with a number above. */
 export function ghost(one: Ghost, part: Component, from: [number, number] | null, height: number): Group {
@@ -30,7 +30,7 @@ export function ghost(one: Ghost, part: Component, from: [number, number] | null
   model.rotation.z = (one.yaw * Math.PI) / 180;
   made.add(model);
   if (one.label) {
-    const label = badge(one.label, TONES[one.tone]);
+    const label = one.label.length > 3 ? tag(one.label, TONES[one.tone]) : badge(one.label, TONES[one.tone]);
     label.position.set(one.x, one.y, height);
     made.add(label);
   }
@@ -62,6 +62,25 @@ export function badge(text: string, colour: number): Sprite {
   const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
   made.scale.setScalar(0.03);
   made.renderOrder = 10;
+  return made;
+}
+
+/** Words on a plate that always faces who looks. */
+export function tag(text: string, colour: number): Sprite {
+  const canvas = document.createElement("canvas"), pen = canvas.getContext("2d")!;
+  const font = "600 34px system-ui, sans-serif";
+  pen.font = font;
+  canvas.width = Math.ceil(pen.measureText(text).width) + 32;
+  canvas.height = 56;
+  pen.fillStyle = `#${new Color(colour).getHexString()}`;
+  pen.beginPath();
+  pen.roundRect(0, 0, canvas.width, canvas.height, 14);
+  pen.fill();
+  Object.assign(pen, { fillStyle: "#fff", font, textAlign: "center", textBaseline: "middle" });
+  pen.fillText(text, canvas.width / 2, 30);
+  const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
+  made.scale.set((0.026 * canvas.width) / canvas.height, 0.026, 1);
+  made.renderOrder = 11;
   return made;
 }
 

@@ -25,6 +25,15 @@ export interface Told {
   measured(found: Measured | null): void;
 }
 
+/** Who drags components over the table; where the pointer is on it [mm]. */
+export interface Drag {
+  /** Whether a press on a part takes it; with Alt it does anyway. */
+  always: boolean;
+  begin(part: number, at: [number, number]): boolean;
+  over(at: [number, number]): void;
+  end(): void;
+}
+
 const ACCENT = 0x1f8fff, BAD = 0xe0413a;
 /** Milliseconds between two pictures where the machine draws in software. */
 const SLOW = 120;
@@ -50,6 +59,8 @@ export class Twin {
   #follow = false;
   #ruler: { snap: Snap; from: Vec | null } | null = null;
   #down: [number, number] | null = null;
+  drag: Drag | null = null;
+  #dragging = false;
 
   constructor(readonly canvas: HTMLCanvasElement, readonly told: Told, readonly slow = false) {
     this.#renderer = new WebGLRenderer({ canvas, antialias: !slow, alpha: true, powerPreference: slow ? "low-power" : "default" });
@@ -69,8 +80,9 @@ export class Twin {
     this.#layers.phantom.add(this.#phantom.root);
     this.#light();
     canvas.addEventListener("pointermove", this.#hovered);
-    canvas.addEventListener("pointerdown", (event) => (this.#down = [event.clientX, event.clientY]));
+    canvas.addEventListener("pointerdown", this.#pressed, { capture: true });
     canvas.addEventListener("pointerup", this.#picked);
+    canvas.addEventListener("pointercancel", this.#picked);
     canvas.addEventListener("pointerleave", () => this.told.hover(null));
     this.#watch = new ResizeObserver(() => this.#resized());
     this.#watch.observe(canvas.parentElement ?? canvas);
@@ -323,7 +335,32 @@ export class Twin {
     return { part: part ?? null, name: owner?.name ?? "", point: first.point.toArray() };
   }
 
+  /** Where a pointer is on the table. */
+  #onTable(event: PointerEvent): [number, number] | null {
+    const { left, top, width, height } = this.canvas.getBoundingClientRect();
+    const at = new Vector2(((event.clientX - left) / width) * 2 - 1, 1 - ((event.clientY - top) / height) * 2);
+    const caster = new Raycaster();
+    caster.setFromCamera(at, this.#camera);
+    const { origin, direction } = caster.ray;
+    if (direction.z >= -1e-6) return null;
+    const far = -origin.z / direction.z;
+    return [origin.x + far * direction.x, origin.y + far * direction.y];
+  }
+
+  #pressed = (event: PointerEvent): void => {
+    this.#down = [event.clientX, event.clientY];
+    const drag = this.drag;
+    if (!drag || this.#ruler || event.button !== 0 || !(drag.always || event.altKey)) return;
+    const hit = this.#hit(event), at = this.#onTable(event);
+    if (hit?.part == null || !at || !drag.begin(hit.part, at)) return;
+    this.#dragging = true;
+    this.#controls.enabled = false;
+    this.canvas.setPointerCapture(event.pointerId);
+  };
+
   #hovered = (event: PointerEvent): void => {
+    const at = this.#dragging ? this.#onTable(event) : null;
+    if (at) this.drag?.over(at);
     if (event.buttons) return;
     const hit = this.#hit(event);
     this.canvas.style.cursor = this.#ruler ? "crosshair" : hit?.part != null ? "pointer" : "";
@@ -333,6 +370,12 @@ export class Twin {
   #picked = (event: PointerEvent): void => {
     const [x, y] = this.#down ?? [0, 0];
     this.#down = null;
+    if (this.#dragging) {
+      this.#dragging = false;
+      this.#controls.enabled = true;
+      this.drag?.end();
+      return;
+    }
     if (Math.hypot(event.clientX - x, event.clientY - y) > 5) return;
     const hit = this.#hit(event);
     if (!this.#ruler) this.told.pick(hit);

@@ -27,8 +27,7 @@ const STATES = {
   edit: ["inspect?part=p2", () => press("Edit pose", panel)],
   "edit-value": ["inspect?part=cam", () => press("Edit exposure", panel)],
   "by-hand": ["inspect?part=p2", async () => {
-    await page.evaluate(() => document.activeElement?.blur());
-    await press("Edit by hand");
+    if (!(await page.locator(".hand").count())) await press("Edit by hand");
     for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowUp");
     await page.locator(".hand").waitFor();
   }],

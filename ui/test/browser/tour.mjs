@@ -164,6 +164,15 @@ await step("compare two runs", async () => {
   await accessible("compare runs");
 });
 
+await step("what needs attention", async () => {
+  const chip = page.getByTitle(/^What needs attention/);
+  await chip.getByText("light", { exact: false }).waitFor();
+  await chip.click();
+  await page.getByRole("dialog").getByText("the lab waives arming").waitFor();
+  await accessible("attention");
+  await page.keyboard.press("Escape");
+});
+
 await step("compare two commits", async () => {
   await tab("History").click();
   await rows.filter({ hasText: "E1-3" }).click();
@@ -191,6 +200,63 @@ await step("commit", async () => {
   await panel.getByText("1 edited, in no commit").waitFor({ state: "detached" });
   await tab("History").click();
   await rows.filter({ hasText: "p1 three degrees from crossed" }).waitFor();
+});
+
+await step("edit by hand", async () => {
+  await page.locator("#filter").fill("");
+  await part("lx_100").click();
+  await page.getByRole("button", { name: "Edit by hand", exact: true }).click();
+  const hand = page.getByRole("region", { name: "Edit by hand" });
+  await hand.getByText("lx_100").waitFor();
+  for (let i = 0; i < 16; i++) await page.keyboard.press("ArrowRight");
+  for (let i = 0; i < 10; i++) await page.keyboard.press("ArrowUp");
+  await page.keyboard.press("r");
+  await hand.getByText("x 512.5 mm, y 562.5 mm, yaw 15.0°").waitFor();
+  await hand.getByText("It fits: room, reach and beam.").waitFor();
+  await accessible("by hand");
+  await page.keyboard.press("Enter");
+  await panel.getByText("1 edited, in no commit").waitFor();
+  await panel.getByText("+ lx_100.pose (512.5, 562.5, 15°)").waitFor();
+  const [x, y] = await page.evaluate(() => window.picoAt("p2"));
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 5, y - 10);
+  await page.mouse.move(x + 8, y - 40, { steps: 4 });
+  await page.mouse.up();
+  await hand.getByText("p2").waitFor();
+  await panel.getByRole("heading", { name: "p2" }).waitFor();
+  await hand.filter({ hasText: /Undo\s2|cannot|can't|not safe/ }).waitFor();
+  await page.keyboard.press("Escape");
+  const undo = hand.getByRole("button", { name: /^Undo/ });
+  for (let left = Number((await undo.innerText()).replace(/\D/g, "")); left; left--) {
+    await undo.click();
+    await undo.filter({ hasText: left > 1 ? String(left - 1) : /^Undo(?!.*\d)/ }).waitFor();
+  }
+  await panel.getByText(/edited, in no commit/).waitFor({ state: "detached" });
+  await hand.getByRole("button", { name: "End editing by hand" }).click();
+});
+
+await step("who changed it, and a note", async () => {
+  await part("p2").click();
+  await panel.getByText("Who changed it, and notes").click();
+  await panel.getByText(/second polarizer, parallel to the first|p2/).first().waitFor();
+  await panel.getByLabel("Note on p2").fill("scratched at the rim");
+  await page.keyboard.press("Enter");
+  await panel.getByText("scratched at the rim").waitFor();
+  await accessible("blame");
+});
+
+await step("branch and tag, and a checkout that says what it would move", async () => {
+  await tab("History").click();
+  await rows.filter({ hasText: "E2-3" }).click();
+  await panel.getByRole("button", { name: "Branch …" }).click();
+  await panel.getByLabel("Name of the branch").fill("tilted");
+  await panel.getByRole("button", { name: "Make it" }).click();
+  await rows.getByText("tilted", { exact: true }).waitFor();
+  await panel.getByRole("button", { name: "Check out …" }).click();
+  await page.getByRole("dialog").getByText(/\d+ operations/).waitFor();
+  await accessible("check out");
+  await page.getByRole("dialog").getByRole("button", { name: "Leave it" }).click();
 });
 
 await step("commands", async () => {
