@@ -52,7 +52,7 @@ const STATES = {
   palette: ["inspect", () => page.keyboard.press("Control+k")],
   lease: ["inspect", () => page.getByTitle("Who has the bench").click()],
   attention: ["inspect", () => page.getByTitle(/^What needs attention/).click()],
-  parts: ["inspect", () => page.getByRole("button", { name: "Components" }).click(), 999],
+  parts: ["inspect", () => page.getByRole("button", { name: "Components" }).click(), 1099],
 };
 
 for (const theme of ["light", "dark"]) {
@@ -73,6 +73,7 @@ for (const theme of ["light", "dark"]) {
       if (wide > width) console.log(`${name} is ${wide} px wide at ${width}`);
       await page.screenshot({ path: `${folder}/${name}-${width}-${theme}.png` });
       await closed();
+      if (await page.locator(".hand").count()) await press("End editing by hand");
       await page.evaluate(() => document.querySelector(".parts.open") && document.querySelector("[aria-label=Components].bare")?.click());
     }
   }
