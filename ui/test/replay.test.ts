@@ -3,6 +3,7 @@ import { at, doneAt, phaseAt, reel, sceneAt, stepped, telling, translated, turne
 import { filtered, late, measured, type OperationRun } from "../src/replay/recorded";
 import { FAR, Playing } from "../src/live/playing";
 import type { Frame } from "../src/live/frame";
+import { named } from "../src/stores/shown.svelte";
 import type { Component, Scene } from "../src/twin/scene";
 import type { RunDocument } from "../src/api/documents";
 
@@ -96,6 +97,14 @@ describe("a live bench", () => {
     expect(joint(playing, 1150)).toBeCloseTo(0.5, 6);
     expect(joint(playing, 1200)).toBe(3);
   });
+  it("shows only what moves, or was told last, unless all is asked for", () => {
+    const playing = new Playing();
+    playing.push({ ...frame(0, 0), bodies: [{ index: 3, position: [1, 2, 3], quaternion: [1, 0, 0, 0] }] }, 1000);
+    expect(playing.at(1000).bodies).toHaveLength(1);
+    playing.push(frame(0.1, 1), 1100);
+    expect(playing.at(1150).bodies).toEqual([]);
+    expect(playing.at(1150, true).bodies[0]!.position).toEqual([1, 2, 3]);
+  });
   it("jumps where nobody knows the way", () => {
     const playing = new Playing();
     playing.push(frame(0, 0), 1000);
@@ -103,6 +112,14 @@ describe("a live bench", () => {
     expect(joint(playing, 1100)).toBe(1);
     playing.push(frame(FAR + 0.2, 2, 6), 1200);
     expect([joint(playing, 1200), playing.at(1200).epoch]).toEqual([2, 6]);
+  });
+});
+
+describe("what is wrong with a plan", () => {
+  it("is about all the components that it names", () => {
+    const live = scene([part(0, "p1", 0), part(1, "p2", 0), part(2, "p", 0)]);
+    const wrong = { severity: "error" as const, code: "overlap", summary: "p2 at (1, 2, 0°) would overlap p1 by 5 mm", address: "p2.pose" };
+    expect(named([wrong], live)).toEqual(["p1", "p2"]);
   });
 });
 

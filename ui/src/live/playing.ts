@@ -35,10 +35,15 @@ export class Playing {
     this.#latest = frame;
   }
 
-  /** Where all is that was ever told of this epoch, at a moment [ms]. */
-  at(now: number): Frame {
-    const share = this.#share(now), { epoch = 0, rev = 0, time = 0 } = this.#latest ?? {};
-    return { epoch, rev, time, arms: [...this.#arms.values()].map((one) => arm(one, share)), bodies: [...this.#bodies.values()].map((one) => body(one, share)) };
+  /** Where all is at a moment [ms] that moves, or that was told last; `whole`: all that was ever told of this epoch. */
+  at(now: number, whole = false): Frame {
+    const share = this.#share(now), { epoch = 0, rev = 0, time = 0, arms = [], bodies = [] } = this.#latest ?? {};
+    const shown = <T>(told: T[]) => (one: Motion<T>) => whole || one.from !== one.to || told.includes(one.to);
+    return {
+      epoch, rev, time,
+      arms: [...this.#arms.values()].filter(shown(arms)).map((one) => arm(one, share)),
+      bodies: [...this.#bodies.values()].filter(shown(bodies)).map((one) => body(one, share)),
+    };
   }
 
   /** Whether all is where it was told last. */

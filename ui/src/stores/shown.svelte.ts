@@ -1,5 +1,6 @@
 /** What the panels want the twin to show: ghosts, what is outlined. */
 
+import type { Diagnostic } from "../api/client";
 import type { Frame } from "../live/frame";
 import type { Change, PartState, Plan, Pose } from "../api/documents";
 import type { Ghost } from "../twin/marks";
@@ -50,4 +51,10 @@ export function ghostsBetween(changes: Change[], scene: Scene): Ghost[] {
       return pose ? [{ part: part.index, ...pose, label, tone }] : [];
     });
   });
+}
+
+/** The components that something wrong is about: by its address, or named in what it says. */
+export function named(found: Diagnostic[], scene: Scene): string[] {
+  const words = new Set(found.flatMap((one) => `${one.address ?? ""} ${one.summary} ${one.detail ?? ""}`.split(/[^a-z0-9_]+/)));
+  return scene.components.map((one) => one.name).filter((name) => words.has(name));
 }
