@@ -155,7 +155,7 @@ await step("nudge, see the drift, heal", async () => {
 
 await step("compare two runs", async () => {
   await tab("Runs").click();
-  await rows.filter({ hasText: "apply e1" }).last().click();
+  await panel.getByRole("heading", { name: "Run 1: apply e1" }).waitFor(); // it was chosen before
   await panel.getByLabel("Find a run").fill("kinematic-never");
   await panel.getByText("No run is so.").waitFor();
   await panel.getByLabel("Find a run").fill("");
