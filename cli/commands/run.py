@@ -58,11 +58,10 @@ def run(
 ) -> int:
     """Run a recipe: an experiment, step by step.
 
-    It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down
-    when it begins and when it is done: after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was,
-    measures nothing twice and loses nothing. With --detach it goes on by itself, of a bench on the network beside its
-    coordinator with what the checkout holds, and `pico runs attach` follows it and brings its commits and runs. An
-    assertion that fails ends it with exit code 6. With --json: a line for each step, and one for the end.
+    It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down:
+    after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was and measures nothing twice. With
+    --detach it goes on by itself, of a bench on the network beside its coordinator; `pico runs attach` follows it and
+    brings its commits and runs. An assertion that fails ends it with exit code 6. With --json: a line for each step.
 
     Examples:
       pico run tilt_scan -p tilts='[0, 15, 30]'
