@@ -61,7 +61,7 @@ def run(
     It is checked first, and every state that is known in advance is planned; then it asks. Each step is written down:
     after Ctrl-C, a kill or a power cut `pico run --resume` goes on where it was and measures nothing twice. With
     --detach it goes on by itself, of a bench on the network beside its coordinator; `pico runs attach` follows it and
-    brings its commits and runs. An assertion that fails ends it with exit code 6. With --json: a line for each step.
+    brings its commits and runs. Exit code 6: an assertion failed. With --json: a line for each step.
 
     Examples:
       pico run tilt_scan -p tilts='[0, 15, 30]'
