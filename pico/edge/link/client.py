@@ -34,14 +34,18 @@ if TYPE_CHECKING:
 
 
 class RemoteMemory:
-    """What the bench remembers; see `pico.runs.memory.Memory`."""
+    """What the bench remembers; see `pico.runs.memory.Memory`. What it said of runs that are done stays as it is, and
+    is asked for once: `done` holds that."""
 
-    def __init__(self, line: Line) -> None:
-        self._line = line
+    def __init__(self, line: Line, done: dict[str, tuple[JournalRecord, ...] | None]) -> None:
+        self._line, self._done = line, done
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
         found: tuple[RunRecord, ...] = self._line.call("memory.runs")
+        for run in found:
+            if run.outcome == "done":
+                self._done.setdefault(run.run)
         return found
 
     def last(self) -> RunRecord | None:
@@ -66,7 +70,11 @@ class RemoteMemory:
 
     def records(self, *, run: str | None = None, key: str | None = None) -> tuple[JournalRecord, ...]:
         """Return the records of a run, of a key, or all."""
+        if run is not None and key is None and (known := self._done.get(run)) is not None:
+            return known
         found: tuple[JournalRecord, ...] = self._line.call("memory.records", run, key)
+        if run in self._done and key is None:
+            self._done[run] = found
         return found
 
     def successes(self, components: Collection[str]) -> Iterator[Success]:
@@ -154,6 +162,7 @@ class RemoteEdge:
 
     def __init__(self, line: Line) -> None:
         self._line = line
+        self._done: dict[str, tuple[JournalRecord, ...] | None] = {}
         self._held: dict[int, Callable[[], None]] = {}
         self._kept: dict[str, Callable[[], None]] = {}
 
@@ -315,7 +324,7 @@ class RemoteEdge:
     @property
     def memory(self) -> RemoteMemory | None:
         """What the bench remembers of its runs; None where there was none yet."""
-        return RemoteMemory(self._line) if self._line.call("memory") else None
+        return RemoteMemory(self._line, self._done) if self._line.call("memory") else None
 
     async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
         """Record what a person says of an operation that only a person can tell the end of."""
