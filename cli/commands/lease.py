@@ -82,6 +82,9 @@ def steal(
       pico lease steal --reason "the cell is boiling"
     """
     session = Session.of(context)
+    if not reason.strip():
+        hint = 'such as `--reason "the cell is boiling"`: it is told to who has the bench'
+        raise PicoError(error("usage", "a bench is taken over with a reason", hint=hint))
     session.require_answer(auto_approve)
     holding = _holding(session)
     found = holding.show()

@@ -120,7 +120,9 @@ def test_who_has_the_bench_is_shown_and_only_they_give_it_back(
     assert caught.value.exit_code == ExitCode.LOCKED and not pico("--json", "lease", "show").data["waiting"]
     stolen = holding(lab).steal("the cell is boiling")
     assert stolen > token and pico("--json", "lease", "show").data["mine"]
-    assert coordinator.ask("PUT", at, bob, {"session": "b", "token": stolen - 1})[0] == 409
+    status, told = coordinator.ask("PUT", at, bob, {"session": "b", "token": stolen - 1})
+    assert status == 409 and "(ann: the cell is boiling); ann has it now" in told["error"][0]["summary"]
+    assert "taken over with a reason" in pico("lease", "steal", "--reason", " ", "-y").err
 
 
 def test_who_logs_in_after_somebody_else_in_their_checkout_does_not_have_what_they_have(

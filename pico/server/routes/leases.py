@@ -105,9 +105,10 @@ async def renew(request: Request, lab: str, bench: str, wanted: Renew) -> dict[s
     turn = await _turned(request, books(request.app).leases.renewed, f"{lab}/{bench}", session, wanted.token)
     for said in turn.said:
         if said.session == session and said.what == "lost":
-            raise PicoError(
-                error("lost", lost(said.why, turn.row), hint="`pico lease show` says who has it"), ExitCode.LOCKED
-            )
+            held = books(request.app)
+            why = said.why or await held.look(held.leases.taken_over, f"{lab}/{bench}", wanted.token)
+            hint = "`pico lease show` says who has it"
+            raise PicoError(error("lost", lost(why, turn.row), hint=hint), ExitCode.LOCKED)
     return {"state": "granted", "token": wanted.token, "lasts": TTL}
 
 

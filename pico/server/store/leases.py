@@ -14,7 +14,7 @@ from pico.control.leases import Asker, Audit, Grant, Lease, Turn
 from pico.diagnostics import PicoError, error
 from pico.server.store.database import Database
 from pico.server.store.ordered import write_audit, write_event
-from pico.server.store.tables import benches, waiting
+from pico.server.store.tables import audit, benches, waiting
 
 Change = Callable[[Lease, float, bool], Turn]
 """A change of a row, at a time [s], with whether the edge has been met."""
@@ -102,6 +102,13 @@ class Leases:
             with self._database.writing() as connection:
                 connection.execute(update(benches).where(benches.c.bench == bench).values(met=True))
         return self.turn(bench, change)
+
+    def taken_over(self, bench: str, token: int) -> str:
+        """Return who took a lease from its holder, and the reason that they gave; empty where nobody did."""
+        mine = (audit.c.bench == bench) & (audit.c.token > token) & (audit.c.deed == "stolen")
+        with self._database.reading() as connection:
+            found = connection.execute(select(audit).where(mine).order_by(audit.c.number).limit(1)).first()
+            return f"{found.who}: {found.why}" if found else ""
 
     def due(self) -> tuple[str, ...]:
         """Return the benches of which a lease is over, or that are free and waited for; without those that another
