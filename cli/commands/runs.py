@@ -20,6 +20,7 @@ from ..views.style import listed
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
+    from pico.history.lab_history import LabHistory
     from pico.runs.document import RecordedRun
     from pico.runs.operations import OperationRun
 
@@ -63,7 +64,7 @@ def list_(
     """
     session = Session.of(context)
     wrong: list[Diagnostic] = []
-    history = session.bench().history
+    history = _history(session)
     session.show(table, history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong), wrong)
     session.tell(wrong)
 
@@ -83,13 +84,22 @@ def show(
       pico --json runs show 20260101 --frames
     """
     session = Session.of(context)
-    bench = session.bench()
-    found, commit = bench.history.recorded_run(run)
+    found, commit = _history(session).recorded_run(run)
     if frames:
-        _frames(session, bench, found)
+        _frames(session, session.bench(), found)
     else:
         session.show(view, found, commit)
     session.tell(found.diagnostics)
+
+
+def _history(session: Session) -> LabHistory:
+    """Return the history with what the bench knows; what commits carry is there also where that is out of reach."""
+    from pico.edge.protocol import Cut
+
+    try:
+        return session.bench().history
+    except Cut:
+        return session.history()
 
 
 def _frames(session: Session, bench: Bench, found: RecordedRun) -> None:

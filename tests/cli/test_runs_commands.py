@@ -282,3 +282,16 @@ def test_what_would_move_in_a_plan_comes_after_the_plan(here: Path, pico: Pico) 
     assert (found["origin"], found["plan"]) == ("planned", plan["digest"])
     assert [step["address"] for step in found["steps"]] == ["p1.angle"] and found["seconds"] == plan["makespan"]
     assert "as the plan reckons" in pico("plan", "--frames").out
+
+
+def test_what_commits_carry_is_listed_and_shown_also_while_the_coordinator_is_away(here: Path, pico: Pico) -> None:
+    import socket
+
+    carried = [run["document"]["id"] for run in runs(pico, "e1")]
+    with socket.socket() as nobody:
+        nobody.bind(("127.0.0.1", 0))  # and does not listen
+        assert pico("remote", "add", "lab", f"http://127.0.0.1:{nobody.getsockname()[1]}").code == 0
+        listed = pico("--bench", "shel/bench1", "runs", "list")
+        assert listed.code == 0 and all(name in listed.out for name in carried) and "does not answer" in listed.err
+        shown = pico("--bench", "shel/bench1", "runs", "show", carried[0])
+        assert shown.code == 0 and f"run {carried[0]}" in shown.out
