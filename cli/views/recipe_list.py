@@ -9,6 +9,7 @@ from .style import columns, paint
 
 if TYPE_CHECKING:
     from pico.recipes.log import About
+    from pico.recipes.recipe import Parameter
     from pico.recipes.recipes import Listed
 
 
@@ -21,8 +22,14 @@ def text(recipes: Sequence[Listed], cut_short: Sequence[About]) -> str:
 
 
 def data(recipes: Sequence[Listed], cut_short: Sequence[About]) -> dict[str, Any]:
-    """Return schema `pico.recipes/v1`: `recipes` with `name`, `title`, `parameters`, `wrong`; `cut_short` runs."""
+    """Return schema `pico.recipes/v1`: `recipes` with `name`, `title`, `parameters`, `wrong`, `inputs` (each parameter
+    by `name`, `kind`, `unit`, `default`, `low`, `high`, `choices`, `description`) and the steps that wait for a person
+    (`asks`); `cut_short` runs."""
     return {
-        "schema": "pico.recipes/v1", "recipes": [vars(r) for r in recipes],
+        "schema": "pico.recipes/v1", "recipes": [{**vars(r), "inputs": [_input(p) for p in r.inputs]} for r in recipes],
         "cut_short": [{"run": a.id, "recipe": a.name, "at": a.at} for a in cut_short],
     }  # fmt: skip
+
+
+def _input(one: Parameter) -> dict[str, Any]:
+    return {name: value for name, value in vars(one).items() if name != "source"}

@@ -176,6 +176,7 @@ class Aligning:
             "values": {n: v for n, v in reading.values.items() if math.isfinite(v)},
         }  # fmt: skip
         data |= {"unknown": reading.unknown} if reading.unknown else {}
+        data |= run.judged(reading.values)
         self._tell(Event(
             run=run.key.split("/", maxsplit=1)[0], seq=0, kind="operation_progress", time=reading.time,
             operation=run.operation.id, component=run.operation.component, data=data,
@@ -230,7 +231,17 @@ class _Run:
         self.doubt = ""
         """What was not assured of the last reading, and why."""
         self.exposed: set[str] = set()
+        self.best: float | None = None
         self._language = Language(dict.fromkeys(sorted(numbers_in(setup, goal)), "number"))
+
+    def judged(self, values: Mapping[str, float]) -> dict[str, Any]:
+        """Return the `objective` of a reading with the `best` by now; nothing where it was not measured."""
+        found = self.problem.objective(values)
+        if found is None:
+            return {}
+        better = max if self.problem.aim == "maximize" else min
+        self.best = found["value"] if self.best is None else better(self.best, found["value"])
+        return {"objective": {**found, "best": self.best}}
 
     async def bright(self) -> bool:
         """Whether the goal has light where its tunables stand."""

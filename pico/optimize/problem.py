@@ -145,6 +145,15 @@ class Problem:
             return math.hypot(*(off / (self.tolerance.get(n) or 1.0) for n, off in self.off(result).items()))
         return result[self.outputs[0]] * (1 if self.aim == "minimize" else -1)
 
+    def objective(self, result: Mapping[str, float]) -> dict[str, Any] | None:
+        """Return what is sought as a person sees it, with its `name`, `value` and one standard deviation `sigma`: how
+        far from the goal it is, in tolerances, else the output itself; None where it was not measured."""
+        cost = self.cost(result)
+        if not math.isfinite(cost):
+            return None
+        name = "from the goal, in tolerances" if self.aim == "reach" else self.outputs[0]
+        return {"name": name, "value": -cost if self.aim == "maximize" else cost, "sigma": self.noise(result)}
+
     def noise(self, result: Mapping[str, float]) -> float:
         """Return one standard deviation of the cost of a result; 0 where nobody says."""
         sigmas = {name: result.get(f"{name}_sigma", 0.0) or 0.0 for name in self.outputs}

@@ -17,10 +17,10 @@ from pico.recipes.log import About, Log, logs
 from pico.recipes.parameters import given_values
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading import read_recipe
-from pico.recipes.recipe import Recipe, paths_of
+from pico.recipes.recipe import Parameter, Recipe, paths_of
 from pico.recipes.running import Outcome, Watching, run_recipe
 from pico.recipes.taken_up import otherwise
-from pico.recipes.unattended import asking
+from pico.recipes.unattended import asking, waiting
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
@@ -34,12 +34,15 @@ MOST_LISTED = 20
 
 @dataclass(frozen=True)
 class Listed:
-    """A recipe of a lab in a list: `parameters` in words, `wrong` where it has mistakes."""
+    """A recipe of a lab in a list: `parameters` in words, and as they are (`inputs`); `wrong` where it has mistakes;
+    `asks`: the steps that wait for a person."""
 
     name: str
     title: str
     parameters: str
     wrong: bool
+    inputs: tuple[Parameter, ...] = ()
+    asks: tuple[str, ...] = ()
 
 
 class Recipes:
@@ -94,7 +97,11 @@ class Recipes:
                 if recipe
                 else ""
             )
-            found.append(Listed(name, recipe.title if recipe else "", parameters, bool(wrong) or recipe is None))
+            inputs = tuple(recipe.parameters.values()) if recipe else ()
+            asks = waiting(recipe) if recipe else ()
+            found.append(
+                Listed(name, recipe.title if recipe else "", parameters, bool(wrong) or recipe is None, inputs, asks)
+            )
         return tuple(found)
 
     def arguments(self, recipe: Recipe, given: Mapping[str, str]) -> dict[str, Any]:

@@ -144,6 +144,11 @@ def asking(recipe: Recipe) -> list[Diagnostic]:
     ]
 
 
+def waiting(recipe: Recipe) -> tuple[str, ...]:
+    """Return the steps of a recipe that wait for a person, as they are written."""
+    return tuple(step.title for step in _waiting((*recipe.steps, *recipe.finally_)))
+
+
 def _waiting(steps: Sequence[Step]) -> Iterator[Act]:
     """Yield the steps that wait for a person whoever is there."""
     return (s for s in _all(steps) if step_file(s.kind).KIND.asks and s.given.get("unattended") != "skip")

@@ -58,6 +58,9 @@ def test_a_goal_of_the_lab_is_one_operation_with_its_points_beside_the_run(place
     assert found["points"]["shape"] == [found["measurements"], len(found["columns"])]
     progress = [e for e in map(json.loads, lines[:-1]) if e["kind"] == "operation_progress"]
     assert len(progress) >= found["measurements"] and "ly_150.stage_y" in progress[0]["data"]["point"]
+    told = [e["data"]["objective"] for e in progress]
+    assert told[0]["value"] > 1 >= told[-1]["best"] and told[0]["name"] == "from the goal, in tolerances"
+    assert [one["best"] for one in told] == [min(one["value"] for one in told[: n + 1]) for n in range(len(told))]
     run = pico("runs", "show", found["run"], "--json").data
     (operation,) = run["operations"]
     assert operation["primitive"] == "optimize" and operation["data"]["last"] == found["last"]

@@ -57,6 +57,9 @@ def test_where_nobody_is_there_it_is_held_to_what_it_states(turning: Path, pico:
 
 def test_it_is_listed_checked_and_run(turning: Path, pico: Pico) -> None:
     assert "turning  The first polarizer turns  angles [deg]" in pico("recipe").out
+    (listed,) = pico("recipe", "list", "--json").data["recipes"]
+    (angles,) = listed["inputs"]
+    assert (angles["kind"], angles["unit"], angles["default"], listed["asks"]) == ("numbers", "deg", [10, 20], [])
     answer = pico("recipe", "check", "turning", "-p", "angles=[5, 6, 7]")
     assert answer.code == 0 and "6 steps foreseen" in answer.out and "angle = 7  (3/3)" in answer.out
     answer = pico("run", "turning", "--dry-run")

@@ -17,6 +17,8 @@ export interface Going {
   run: string | null;
   plan: Plan | null;
   events: BenchEvent[];
+  /** What was said that is neither plan, event nor report. */
+  said: Said[];
   steps: Record<string, Step>;
   report: Report | null;
   exit: number | null;
@@ -24,6 +26,15 @@ export interface Going {
 }
 
 export interface Answer { said: Said[]; exit: number; diagnostics: Diagnostic[] }
+
+/** Where this tab keeps what it began, to follow it after a reload. */
+const KEPT = "pico-run";
+
+interface DeskRun { id: string; bench: string; command: string; words: string[]; exit: number | null }
+
+function none(): Going {
+  return { words: [], run: null, plan: null, events: [], said: [], steps: {}, report: null, exit: null, diagnostics: [] };
+}
 
 class Desk {
   status = $state.raw<Status | null>(null);
@@ -151,12 +162,36 @@ class Desk {
     else await bench.halt();
   }
 
+  /**
+   * Follow what goes on at the desk for this bench, if something does, and what this tab had begun when it was
+   * loaded anew, though that has ended meanwhile.
+   */
+  async follow(): Promise<void> {
+    if (this.going && this.going.exit === null) return;
+    const { runs } = await ask<{ runs: DeskRun[] }>("get", "/api/labs/{lab}/desk/runs", { lab: bench.lab });
+    const mine = sessionStorage.getItem(KEPT);
+    sessionStorage.removeItem(KEPT);
+    const one = runs.find((each) => each.id === mine) ?? runs.find((each) => each.exit === null && [bench.name, bench.at.bench].includes(each.bench));
+    if (!one) return;
+    this.going = { ...none(), words: [...one.command.split(" "), ...one.words], run: one.id };
+    const live = this.going;
+    for await (const said of lines<Said>("get", filled("/api/labs/{lab}/desk/runs/{run}/events", { lab: bench.lab, run: one.id }))) {
+      if ("exit" in said && !("schema" in said)) live.exit = (said as { exit: number }).exit;
+      else {
+        live.diagnostics.push(...((said as unknown as Diagnostics).diagnostics ?? []));
+        heard(live, said);
+      }
+    }
+    live.exit ??= 1;
+    await Promise.all([this.look(), this.history(), this.recorded()]);
+  }
+
   /** Run what moves the bench, and follow it. */
   async move(words: string[]): Promise<number> {
-    const going: Going = { words, run: null, plan: null, events: [], steps: {}, report: null, exit: null, diagnostics: [] };
-    this.going = going;
+    this.going = { ...none(), words };
     const live = this.going; // the proxy that is watched
-    const answer = await this.run(words, (said) => heard(live, said), (run) => (live.run = run));
+    const answer = await this.run(words, (said) => heard(live, said), (run) => { live.run = run; sessionStorage.setItem(KEPT, run); });
+    sessionStorage.removeItem(KEPT);
     live.exit = answer.exit;
     live.diagnostics = answer.diagnostics;
     await Promise.all([this.look(), this.history(), this.recorded()]);
@@ -194,7 +229,7 @@ export function heard(going: Going, said: Said): void {
     } else if (event.kind === "operation_done") Object.assign(step, { state: "done", fraction: 1, phase: "" });
     else if (event.kind === "operation_failed") step.state = "failed";
     else if (event.kind === "operation_unknown") step.state = "unknown";
-  }
+  } else going.said.push(said);
 }
 
 export const desk = new Desk();

@@ -5,7 +5,7 @@ import type { BenchEvent } from "../api/documents";
 import { Link } from "../live/link";
 import { bench, type LiveEvent } from "./bench.svelte";
 import { desk } from "./desk.svelte";
-import { Hand, rung, type Frame, type Heard } from "./hand";
+import { Hand, rung, type Frame, type Heard } from "./teleop";
 import { told } from "./told.svelte";
 
 /** Milliseconds between two frames while something may move, and else. */

@@ -49,6 +49,10 @@ const STATES = {
     await page.getByLabel("Time of the run").fill("4.6");
     await page.waitForTimeout(300);
   }],
+  steer: ["do?act=steer&part=p2"],
+  measure: ["do?act=measure", () => panel.locator(".picture").waitFor()],
+  optimize: ["do?act=optimize", () => press("Look ahead", panel)],
+  recipes: ["do?act=recipes"],
   palette: ["inspect", () => page.keyboard.press("Control+k")],
   lease: ["inspect", () => page.getByTitle("Who has the bench").click()],
   attention: ["inspect", () => page.getByTitle(/^What needs attention/).click()],

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { decimals, Hand, rung, stopped, type Heard } from "../src/stores/hand";
+import { decimals, Hand, rung, stopped, type Heard } from "../src/stores/teleop";
 
 const heard = (more: Partial<Heard>): Heard => ({ clock: 0, refused: "", phase: "ready", values: {}, steps: 0, missed: 0, limit: "", stopped: "", ...more });
 

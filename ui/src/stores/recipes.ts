@@ -1,0 +1,48 @@
+/** Recipes of the lab, what is known of one in advance, and how far one that runs has come. */
+
+import type { Said } from "../api/documents";
+
+export interface Input { name: string; kind: "number" | "bool" | "text" | "numbers" | "texts"; unit: string; default: unknown; low: number | null; high: number | null; choices: string[]; description: string }
+export interface Listed { name: string; title: string; parameters: string; wrong: boolean; inputs: Input[]; asks: string[] }
+export interface Listing { schema: "pico.recipes/v1"; recipes: Listed[]; cut_short: { run: string; recipe: string; at: string }[] }
+export interface AheadStep { path: string; title: string; known: boolean; seconds?: number }
+export interface Foreseen { schema: "pico.recipe_ahead/v1"; recipe: string; seconds: number; whole: boolean; steps: AheadStep[] }
+export interface Row { path: string; title: string; depth: number; state: "waiting" | "going" | "done" | "before"; turn: string; said: string }
+interface RecipeEvent { schema: "pico.recipe_event/v1"; event: "step" | "done"; path: string; title?: string; turn?: number; turns?: number; result?: Record<string, unknown>; before?: boolean }
+
+/** How deep a step lies: `28.1` and `28[2].1` lie in 28. */
+export function depth(path: string): number {
+  return path.split(".").length - 1;
+}
+
+/** A default as one types it: `30`, `[0, 15]`. */
+export function typedDefault(value: unknown): string {
+  return value === null || value === undefined ? "" : typeof value === "string" ? value : JSON.stringify(value);
+}
+
+/** The words that give what differs from the defaults. */
+export function given(inputs: Input[], fields: Record<string, string>): string[] {
+  return inputs.flatMap(({ name, default: usual }) => {
+    const said = (fields[name] ?? "").trim();
+    return said && said !== typedDefault(usual) ? ["-p", `${name}=${said}`] : [];
+  });
+}
+
+/** The steps with how far they are: those that are known in advance, and those that came up on the way. */
+export function rows(ahead: AheadStep[], said: Said[]): Row[] {
+  const found = new Map<string, Row>(ahead.map(({ path, title }) => [path, { path, title, depth: depth(path), state: "waiting", turn: "", said: "" }]));
+  for (const one of said) {
+    if (!("schema" in one) || one.schema !== "pico.recipe_event/v1") continue;
+    const event = one as unknown as RecipeEvent;
+    if (event.path.endsWith("?")) continue;
+    const row = found.get(event.path) ?? { path: event.path, title: event.title ?? "", depth: depth(event.path), state: "waiting", turn: "", said: "" };
+    found.set(event.path, row);
+    if (event.event === "step") Object.assign(row, { state: "going", title: event.title ?? row.title, turn: event.turns ? `${event.turn} of ${event.turns}` : "" });
+    else {
+      row.state = event.before ? "before" : "done";
+      const told = event.result?.[""];
+      if (told !== undefined) row.said = String(told);
+    }
+  }
+  return [...found.values()];
+}
