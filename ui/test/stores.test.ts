@@ -17,6 +17,12 @@ describe("words", () => {
     expect(python(["plan", "e1"])).toContain('bench.plan("e1")');
     expect(python(["apply", "--yes"])).toContain("bench.apply(bench.plan())");
     expect(python(["log"])).toBeNull();
+    expect(python(["set", "cam", "exposure=5", "--yes"])).toContain('bench.set({"cam.exposure": 5})');
+    expect(python(["set", "laser", "shutter=open"])).toContain('bench.set({"laser.shutter": "open"})');
+    expect(python(["set", "cam", "exposure=5", "--manifest"])).toBeNull();
+    expect(python(["optimize", "centre", "ly_150", "cam"])).toContain('bench.optimize("centre", "ly_150", "cam")');
+    expect(python(["teleop", "p2.pose"])).toContain('bench.teleop("p2", "pose")');
+    expect(python(["run", "turning", "-p", "often=[1, 2]"])).toContain('recipes.arguments(made, {"often": "[1, 2]"})');
   });
   it("fill paths", () => {
     expect(filled("/api/labs/{lab}/desk", { lab: "a b", since: 3 })).toBe("/api/labs/a%20b/desk?since=3");

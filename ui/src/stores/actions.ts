@@ -9,6 +9,8 @@ import { theme } from "./theme.svelte";
 
 export interface Action { title: string; key?: string; barred?: string | null; run(): void }
 
+const DOINGS = [["steer", "Steer by hand"], ["measure", "Measure with a camera"], ["optimize", "Optimize: seek a goal"], ["recipes", "Recipes: check and run one"]] as const;
+
 /** All that can be done now. */
 export function actions(): Action[] {
   const yours = bench.token !== null;
@@ -16,6 +18,7 @@ export function actions(): Action[] {
     { title: "STOP at once", key: "Ctrl .", run: () => void bench.stop() },
     { title: "Stop safely: nothing more starts", run: () => void bench.halt() },
     ...TABS.map((tab, i) => ({ title: `Show ${tab}`, key: String(i + 1), run: () => address.go(tab) })),
+    ...DOINGS.map(([act, title]) => ({ title, run: () => address.go("do", { act }) })),
     { title: "Plan for the manifest", run: () => { address.go("plan", { rev: "" }); void desk.think(["plan"]); } },
     { title: "Look anew (status)", key: "R", run: () => void desk.look() },
     { title: yours ? "Give the bench back" : "Take the bench", barred: session.may("operator", bench.lab) ? null : "needs the role operator",

@@ -25,10 +25,27 @@ export function typed(words: string[]): string {
   return ["pico", ...words].map((one) => (/^[\w@%+=:,./-]+$/.test(one) ? one : `'${one.replaceAll("'", `'\\''`)}'`)).join(" ");
 }
 
+const quoted = (text: string): string => JSON.stringify(text);
+const texts = (pair: string): string => `${quoted(pair.slice(0, pair.indexOf("=")))}: ${quoted(pair.slice(pair.indexOf("=") + 1))}`;
+const given = (pair: string, before: string): string => {
+  const [name = "", value = ""] = pair.split("=");
+  return `${quoted(before + name)}: ${value.trim() && !Number.isNaN(Number(value)) ? value : quoted(value)}`;
+};
+
 const KEPT: Record<string, (rest: string[]) => string | null> = {
   plan: ([rev]) => `print(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
   apply: ([rev]) => `bench.apply(bench.plan(${rev ? JSON.stringify(rev) : ""}))`,
   status: () => "print(bench.status())",
+  measure: ([what]) => (what ? `print(bench.measure(${quoted(what)}))` : null),
+  optimize: (goal) => (goal.length ? `print(bench.optimize(${goal.map(quoted).join(", ")}))` : null),
+  set: ([part, ...pairs]) => (pairs.length ? `bench.set({${pairs.map((one) => given(one, `${part}.`)).join(", ")}})` : null),
+  do: ([part, what, ...more]) => (part && what && !more.length ? `bench.do(${quoted(part)}, ${quoted(what)})` : null),
+  capture: () => "bench.capture()",
+  undo: () => "bench.apply(bench.recovery.undo_plan())",
+  teleop: ([what]) => `with bench.teleop(${(what ?? "").split(".").map(quoted).join(", ")}) as jog:\n    print(jog.values)  # jog.step(NAME, BY) moves it`,
+  run: ([name, ...pairs]) => (name
+    ? `from pico.recipes.recipes import Recipes\n\nrecipes = Recipes(bench)\nmade = recipes.read(${quoted(name)})\nrecipes.run(made, recipes.begin(made, recipes.arguments(made, {${pairs.map((one) => texts(one)).join(", ")}})))`
+    : null),
   runs: ([what, a, b]) => ({
     show: `run, commit = bench.history.recorded_run(${JSON.stringify(a ?? "")})\nprint(run)`,
     compare: `print(bench.history.compare_runs(${JSON.stringify(a ?? "")}, ${JSON.stringify(b ?? "")}))`,
@@ -38,7 +55,9 @@ const KEPT: Record<string, (rest: string[]) => string | null> = {
 /** The same in Python, where a line of it does the same. */
 export function python(words: string[]): string | null {
   const [command = "", ...rest] = words.filter((one) => one !== "--yes");
-  const said = KEPT[command]?.(rest.filter((one) => !one.startsWith("-")));
+  const otherwise = ["set", "do", "move", "run", "optimize", "measure"].includes(command) && rest.some((one) => /^-/.test(one) && !/^-(p|-param|[\d.].*)$/.test(one));
+  if (otherwise) return null; // such as `--manifest`, which moves nothing
+  const said = KEPT[command]?.(rest.filter((one) => !/^-(?![\d.])/.test(one)));
   return said ? `import pico\n\nbench = pico.open(".")\n${said}` : null;
 }
 
