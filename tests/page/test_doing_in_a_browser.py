@@ -20,7 +20,7 @@ steps:
   - foreach: {k: often}
     steps:
       - set: {p1.angle: k}
-      - measure: cam.centroid
+      - measure: p1.angle
   - move: {p2: {yaw: 31}}
 """
 ASKING = """\
