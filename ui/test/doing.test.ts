@@ -18,7 +18,11 @@ describe("a recipe", () => {
       step("step", "2?"), step("step", "3[2].1", { title: "move p2", turn: 2, turns: 5 }),
     ]);
     expect(found.map(({ path, state, said, turn }) => [path, state, said, turn])).toEqual([
-      ["1", "done", "at C1", ""], ["2", "going", "", ""], ["3[2].1", "going", "", "2 of 5"]]);
+      ["1", "done", "at C1", ""], ["2", "done", "", ""], ["3[2].1", "going", "", "2 of 5"]]);
+    const loop = [step("step", "2", { title: "foreach" }), step("step", "2[1].1"), step("done", "2[1].1")];
+    expect(rows([], loop).map(({ state }) => state)).toEqual(["going", "done"]);
+    expect(rows([], [...loop, step("step", "3")]).map(({ state }) => state)).toEqual(["done", "done", "going"]);
+    expect(rows([], loop, true).map(({ state }) => state)).toEqual(["done", "done"]);
     expect([depth("3[2].1"), depth("3")]).toEqual([1, 0]);
   });
 });

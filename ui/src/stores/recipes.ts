@@ -28,8 +28,16 @@ export function given(inputs: Input[], fields: Record<string, string>): string[]
   });
 }
 
-/** The steps with how far they are: those that are known in advance, and those that came up on the way. */
-export function rows(ahead: AheadStep[], said: Said[]): Row[] {
+/** Whether a step lies in another: `2[1].1` in 2, and not 21 in 2. */
+function inside(path: string, other: string): boolean {
+  return path.startsWith(other) && /^[.[]/.test(path.slice(other.length));
+}
+
+/**
+ * The steps with how far they are: those that are known in advance, and those that came up on the way. Of a loop nobody
+ * says that it is done: it is so once a step beside it begins, or all is `over`.
+ */
+export function rows(ahead: AheadStep[], said: Said[], over = false): Row[] {
   const found = new Map<string, Row>(ahead.map(({ path, title }) => [path, { path, title, depth: depth(path), state: "waiting", turn: "", said: "" }]));
   for (const one of said) {
     if (!("schema" in one) || one.schema !== "pico.recipe_event/v1") continue;
@@ -37,6 +45,9 @@ export function rows(ahead: AheadStep[], said: Said[]): Row[] {
     if (event.path.endsWith("?")) continue;
     const row = found.get(event.path) ?? { path: event.path, title: event.title ?? "", depth: depth(event.path), state: "waiting", turn: "", said: "" };
     found.set(event.path, row);
+    if (event.event === "step") {
+      for (const each of found.values()) if (each.state === "going" && !inside(event.path, each.path)) each.state = "done";
+    }
     if (event.event === "step") Object.assign(row, { state: "going", title: event.title ?? row.title, turn: event.turns ? `${event.turn} of ${event.turns}` : "" });
     else {
       row.state = event.before ? "before" : "done";
@@ -44,5 +55,6 @@ export function rows(ahead: AheadStep[], said: Said[]): Row[] {
       if (told !== undefined) row.said = String(told);
     }
   }
+  if (over) for (const each of found.values()) if (each.state === "going") each.state = "done";
   return [...found.values()];
 }
