@@ -3,6 +3,7 @@
     python .ci/page.py build    types of the interface, then pico/server/static/
     python .ci/page.py check    the same elsewhere, and compared; its own tests
     python .ci/page.py test     in Chromium, against a coordinator with a bench in the twin
+    python .ci/page.py pictures those of the documentation, docs/images/page-*.png, of an example that is made for them
 
 Node 20 or newer and npm are needed to build and to check; without them a check says so and passes, for whoever only
 uses the page needs neither.
@@ -15,6 +16,7 @@ import hashlib
 import json
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -101,22 +103,54 @@ def differences(one: Path, other: Path) -> list[str]:
     return sorted([*wrong, *missing])
 
 
-def test() -> None:
-    """Run the tests that need a browser."""
+def browser() -> None:
+    """Install what drives a browser, and the browser where that can be; stop where it can't."""
     if not shutil.which("chromium"):
         if os.geteuid() == 0 and shutil.which("apt-get"):
             subprocess.run(["apt-get", "install", "-y", "-qq", "--no-install-recommends", "chromium"], check=False)
         if not shutil.which("chromium"):
             sys.exit("Chromium is not here, and can't be installed: `apt-get install chromium` as root")
     installed()
+
+
+def test() -> None:
+    """Run the tests that need a browser."""
+    browser()
     sys.exit(subprocess.run([sys.executable, "-m", "pytest", "-n", "0", ROOT / "tests/page"], check=False).returncode)
+
+
+def pictures() -> None:
+    """Make the pictures of the documentation anew, small ones."""
+    from PIL import Image
+
+    browser()
+    with tempfile.TemporaryDirectory() as name:
+        folder, pico = Path(name), [sys.executable, "-m", "pico_cli"]
+        own = {"XDG_CONFIG_HOME": str(folder / "config"), "XDG_STATE_HOME": str(folder / "state")}
+        environment = os.environ | own
+        for words in (["init", "--example", "shel", folder / "lab"], ["-C", folder / "lab", "apply", "e1", "-y"]):
+            subprocess.run([*pico, *words], env=environment, check=True, capture_output=True)
+        serving = subprocess.Popen(
+            [*pico, "-C", folder / "lab", "--json", "gui", "--no-open"], env=environment, text=True,
+            stdout=subprocess.PIPE, start_new_session=True,
+        )  # fmt: skip
+        try:
+            assert serving.stdout is not None
+            address = json.loads(serving.stdout.readline())["address"]
+            run("node", "test/browser/pictures.mjs", address, ROOT / "docs/images", "--documented")
+        finally:
+            serving.send_signal(signal.SIGTERM)
+            serving.wait(60)
+    for path in (ROOT / "docs/images").glob("page-*.png"):
+        Image.open(path).convert("RGB").quantize(256).save(path, optimize=True)
+    print("The pictures are in docs/images.")
 
 
 if __name__ == "__main__":
     wanted = sys.argv[1] if len(sys.argv) == 2 else ""
-    if wanted not in ("build", "check", "test"):
+    if wanted not in ("build", "check", "test", "pictures"):
         sys.exit(__doc__)
     if lacking := node_lacks():
         print(f"{lacking}: the page can't be built, its built output is not compared.")
         sys.exit(0 if wanted == "check" else 1)
-    {"build": build, "check": check, "test": test}[wanted]()
+    {"build": build, "check": check, "test": test, "pictures": pictures}[wanted]()

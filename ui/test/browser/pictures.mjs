@@ -1,7 +1,8 @@
 /**
  * A picture of every page and state, at three widths, light and dark, in Chromium:
- *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME]
- * ADDRESS is what `pico gui` told, of a lab that stands at E1-3 (shel). Says what is wider than its page.
+ *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME | --documented]
+ * ADDRESS is what `pico gui` told, of a lab that stands at E1-3 (shel). `--documented`: the pictures of
+ * the documentation alone. Says what is wider than its page.
  */
 import { mkdirSync } from "node:fs";
 import { FLAGS, opened } from "./driving.mjs";
@@ -58,6 +59,25 @@ const STATES = {
   attention: ["inspect", () => page.getByTitle(/^What needs attention/).click()],
   parts: ["inspect", () => page.getByRole("button", { name: "Components" }).click(), 1099],
 };
+
+/** What the documentation shows, under which name, how wide and high. */
+const DOCUMENTED = { plan: ["page-plan", 1280, 760], compare: ["page-history", 1280, 760], "by-hand": ["page-by-hand", 1280, 760], attention: ["page-phone", 420, 760] };
+
+if (only === "--documented") {
+  for (const [name, [file, width, height]] of Object.entries(DOCUMENTED)) {
+    const [where, work] = STATES[name];
+    await page.setViewportSize({ width, height });
+    await page.evaluate((hash) => { location.hash = hash; }, `#/${bench}/${where}`);
+    await page.waitForTimeout(500);
+    await work?.();
+    await page.waitForTimeout(4000);
+    await page.screenshot({ path: `${folder}/${file}.png` });
+    await closed();
+    if (await page.locator(".hand").count()) await press("End editing by hand");
+  }
+  await browser.close();
+  process.exit();
+}
 
 for (const theme of ["light", "dark"]) {
   for (const width of [1440, 1000, 420]) {
