@@ -44,7 +44,8 @@ def lacks() -> str:
 @contextmanager
 def driven(*words: str) -> Iterator[subprocess.Popen[str]]:
     """Run the script that drives the browser; ended where nobody else does."""
-    environment = os.environ | {"CHROMIUM": str(shutil.which("chromium"))}
+    # Chromium has a socket in its temporary folder, whose path must be short
+    environment = os.environ | {"CHROMIUM": str(shutil.which("chromium")), "TMPDIR": "/tmp"}
     whole = ["node", UI / "test/browser/measure.mjs", *words]
     going = subprocess.Popen(
         whole, env=environment, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE, start_new_session=True
