@@ -130,7 +130,7 @@ def seen(network: Network) -> Seen:
         journal.close()
     books = sqlite3.connect(f"file:{network.books / 'coordinator.sqlite'}?mode=ro", uri=True, timeout=10)
     found.unanswered = [f"{key}: {state}" for key, state in books.execute(
-        "SELECT key, state FROM commands WHERE state NOT IN ('done', 'failed', 'unknown', 'refused')")]  # fmt: skip
+        "SELECT key, state FROM commands WHERE state NOT IN ('done', 'failed', 'unknown', 'withdrawn')")]  # fmt: skip
     books.close()
     return found
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from coordinators import BENCH, Served
 from edges import Client, Connected, client, connected, refusal
+from sqlalchemy import select, update
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
@@ -17,6 +19,8 @@ from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
 from pico.planning import Planner, set_one
+from pico.server.store.commands import CommandRows
+from pico.server.store.tables import commands
 
 ANNA = ("operator@shel",)
 
@@ -76,8 +80,7 @@ def test_looking_planning_and_applying_through_the_coordinator(
 
 def free(coordinator: Served) -> None:
     """Wait until nobody has the bench."""
-    while coordinator.books.leases.shown(BENCH)[0].grant is not None:
-        pass
+    until(lambda: coordinator.books.leases.shown(BENCH)[0].grant is None)
 
 
 def test_what_is_asked_again_under_its_lease_is_answered_and_not_done_again(edge: Connected, anna: Client) -> None:
@@ -93,6 +96,35 @@ def test_what_is_asked_again_under_its_lease_is_answered_and_not_done_again(edge
     assert anna.ask("holder") is None
     late = refusal(anna, "execute", turn(30.0), "r1/op2/1", lease)
     assert late.exit_code == ExitCode.LOCKED
+
+
+def test_what_an_ended_lease_left_open_in_the_books_is_settled_once_the_next_one_counts(
+    coordinator: Served, edge: Connected, anna: Client
+) -> None:
+    number = anna.begin("acquire", "test", 0.0)
+    lease = anna.answer(number)["value"]
+    anna.ask("execute", turn(20.0), "r1/op1/1", lease)
+    rows, database = CommandRows(coordinator.books.database), coordinator.books.database
+    rows.submitted(BENCH, lease["token"], "never sent", "digest", "{}")
+    until(lambda: rows.open(BENCH) == ("never sent",))  # its answer is written
+    with database.writing() as connection:  # as if what it was answered could not be written
+        of = update(commands).where(commands.c.key == "r1/op1/1/1")
+        connection.execute(of.values(state="waiting", result=""))
+    anna.close(number)
+    assert len(rows.open(BENCH)) == 2
+    anna.ask("world.nudge", "p1", 1.0, 0.0, 0.0)
+    until(lambda: not rows.open(BENCH))
+    with database.reading() as connection:
+        states = {row.key: row.state for row in connection.execute(select(commands))}
+    assert states.pop("never sent") == "withdrawn" and set(states.values()) == {"done"}
+
+
+def until(so: Callable[[], bool]) -> None:
+    """Wait until something is so, at most 10 s."""
+    end = time.monotonic() + 10.0
+    while not so():
+        assert time.monotonic() < end
+        time.sleep(0.01)
 
 
 def test_who_has_the_bench_is_told_by_the_name_that_the_coordinator_knows(

@@ -12,7 +12,7 @@ from __future__ import annotations
 import asyncio
 import json
 import secrets
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
@@ -63,6 +63,7 @@ class Uplink:
         """What could not be done when a lease was over."""
         self._left: Document | None = None  # how the bench was left then, and by which question that was told
         self._left_told = 0
+        self._told: tuple[str, ...] = ()  # the commands of earlier leases that the coordinator asked for
 
     async def run(self) -> None:
         """Dial, and dial again, for ever."""
@@ -128,10 +129,9 @@ class Uplink:
             text = f"who answers at {self._enrolment.url} is not the coordinator that {bench} is enrolled with"
             raise PicoError(error("enrolment", text, hint="`pico edge enrol` enrols it anew"))
         gate = self.granting.gate
-        known = [gate.memory.records[key] for key in said["open"] if key in gate.memory.records]
         able, lab = await self._edge.describe(), await self._edge.lab()
         hello = {
-            "fenced": gate.memory.fenced, "records": [asdict(one) for one in known], "describe": as_json(able),
+            "fenced": gate.memory.fenced, "records": self._records(said["open"]), "describe": as_json(able),
             "lab": lab is not None and able.lab_digest, "version": _version(),
         }  # fmt: skip
         proof = messages.proof(key, "edge", bench, mine, theirs)
@@ -153,7 +153,14 @@ class Uplink:
         self._asked.pop(number - LATE, None)
         left = {} if self._left is None else {"left": self._left}
         self._left_told = self._left_told or (number if left else 0)
-        await link.send(messages.text({"poll": {"asked": number, **self._state(), **left}}))
+        told = {"records": self._records(self._told)} if self._told else {}
+        self._told = ()
+        await link.send(messages.text({"poll": {"asked": number, **self._state(), **left, **told}}))
+
+    def _records(self, keys: Iterable[str]) -> list[Document]:
+        """Return what is known of commands; those that never came are not in it."""
+        known = self.granting.gate.memory.records
+        return [asdict(known[key]) for key in keys if key in known]
 
     def _state(self) -> Document:
         """Return what the coordinator is told: for which token the bench is fenced, how many commands of it were taken
@@ -169,6 +176,9 @@ class Uplink:
                 self._news.set()
             elif (asked := self._asked.pop(int(lease["asked"]), None)) is not None:
                 self.granting.heard(int(lease["token"]), float(lease["left"]), asked)
+                if said.get("open"):
+                    self._told = tuple(str(key) for key in said["open"])
+                    self._news.set()
                 if 0 < self._left_told <= int(lease["asked"]):  # how the bench was left is known there
                     self._left, self._left_told = None, 0
         elif said.get("close"):

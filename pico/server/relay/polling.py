@@ -19,16 +19,23 @@ class Polled:
         self._books, self._rows, self._line, self._met = books, rows, line, False
 
     async def answer(self, poll: dict[str, Any]) -> dict[str, Any]:
-        """Return which token counts, and how long still. What an edge says of itself is of when it asked."""
+        """Return which token counts, and how long still; once the edge has fenced for a lease, also which commands of
+        earlier ones have no end in the books, whose records it then says with its next question. What an edge says of
+        itself is of when it asked."""
         books, line, bench = self._books, self._line, self._line.bench
         line.fenced, line.moving = int(poll["fenced"]), str(poll["moving"] or "")
         if poll.get("left"):
             await books.do(self._left, str(poll["left"]["at"])[:40], list(poll["left"]["wrong"])[:20])
             books.announce()
+        if "records" in poll:
+            await books.do(
+                self._rows.reconciled, bench, line.fenced, [record_from_json(one) for one in poll["records"]]
+            )
         before, now, _ = await books.look(books.leases.shown, bench)
-        row = before
+        row, asked = before, tuple[str, ...]()
         if not self._met or _tells(row, line.fenced):
             row, self._met = (await books.turn(books.leases.heard, bench, line.fenced)).row, True
+            asked = await books.look(self._rows.open, bench, line.fenced)
         grant = row.grant
         if grant is not None and grant.token == line.fenced:
             if line.moving and _goes_on(grant, line.moving):
@@ -43,7 +50,8 @@ class Polled:
         if row is not before:  # writing that took its time
             _, now, _ = await books.look(books.leases.shown, bench)
         token, seconds = left(row, now)
-        return {"lease": {"asked": poll["asked"], "token": token, "left": seconds}}
+        lease = {"lease": {"asked": poll["asked"], "token": token, "left": seconds}}
+        return {**lease, "open": list(asked)} if asked else lease
 
     def _left(self, at: str, wrong: list[Any]) -> None:
         """Write how an edge left its bench when the lease of that was over."""

@@ -79,13 +79,15 @@ class CommandRows:
             _write(connection, bench, Commands({key: before}), after)
             return after.rows[key]
 
-    def open(self, bench: str) -> tuple[str, ...]:
-        """Return the keys of a bench of which the edge has not told an end yet."""
+    def open(self, bench: str, below: int | None = None) -> tuple[str, ...]:
+        """Return the keys of a bench of which the edge has not told an end yet, or those of leases below one."""
         with self._database.reading() as connection:
-            return tuple(_open(connection, bench).rows)
+            rows = _open(connection, bench).rows
+        return tuple(key for key, row in rows.items() if below is None or row.command.token < below)
 
     def reconciled(self, bench: str, fenced: int, records: Iterable[Record]) -> None:
-        """Bring what is open in line with what the edge remembers, as it says whenever it connects."""
+        """Bring what is open in line with what the edge remembers, as it says when it connects, and when
+        it has fenced for another lease."""
         memory = Memory(fenced=fenced, records={record.command.key: record for record in records})
         with self._database.writing() as connection:
             before = _open(connection, bench)
