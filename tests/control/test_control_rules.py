@@ -93,7 +93,7 @@ def test_a_command_is_done_once_and_answered_as_it_ended() -> None:
 
 def test_a_lease_holds_from_when_the_edge_asked_and_a_little_shorter() -> None:
     gate = held(10.0)
-    assert gating.begins(gating.started(gate, FIRST), 9.9) and not gating.begins(gating.started(gate, FIRST), 9.97)
+    assert gating.begins(gating.started(gate, FIRST), 9.7) and not gating.begins(gating.started(gate, FIRST), 9.8)
     assert gating.judged(gate, FIRST, 9.97).refused == "nolease"
     assert gating.heard(gate, 1, 0.0, 5.0).deadline == -math.inf
     assert gating.to_park(gate, 9.97) and not gating.to_park(gate, 9.0)
