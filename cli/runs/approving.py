@@ -11,11 +11,11 @@ from pico.policy.consent import asked_about, lights
 
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import capture as capture_view
 from ..views import left as left_view
 from ..views import plan as plan_view
 from ..views import report as report_view
 from ..views import verified
+from ..views import wanted as wanted_view
 from ..views.run import Progress
 from ..views.style import count, listed
 from .running import Screen, execute, watched
@@ -109,7 +109,7 @@ def written(
     if plan.errored:
         return show(session, bench, plan, True, single=True)
     only = [f"{component}.{tunable}" for tunable in tunables]
-    session.show(capture_view, bench.commits.wanted(plan, *only, write=not dry_run))
+    session.show(wanted_view, bench.commits.wanted(plan, *only, write=not dry_run))
     return ExitCode.DONE
 
 

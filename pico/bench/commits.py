@@ -62,10 +62,10 @@ class Commits:
         return replace(self.folder.capture(self._live(seen, named), named, write=write), by_light=kept or None)
 
     def wanted(self, plan: Plan, *only: str, write: bool = True) -> Captured:
-        """Write what a plan leads to of `only` these tunables into the manifest, beyond tolerance; the bench stays.
+        """Write what a plan leads to of `only` these tunables into the manifest, as it was asked for; the bench stays.
         Without `write`, say what would be written. Raises PicoError."""
         goal = state_from_json(self.folder.setup.lab.name, plan.target.state)
-        return self.folder.capture(goal, read_addresses(self.folder.setup, only), write=write)
+        return self.folder.write_wanted(goal, read_addresses(self.folder.setup, only), write=write)
 
     def _seen(self) -> tuple[Observation, PicoError | None]:
         """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it

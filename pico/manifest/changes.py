@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from pico.model.address import Named, holds
@@ -44,6 +45,65 @@ def differences(
         if entries:
             changes[name] = entries
     return changes
+
+
+def asked_for(setup: Setup, wanted: LabState, goal: LabState, named: Named) -> Changes:
+    """Return for each component that is `named` the entries to write so that `wanted` says of it what `goal` does:
+    in the form that it has there, and however near that is, down to the resolution."""
+    neat = {n: _neat(setup, n, p, wanted.components.get(n)) for n, p in goal.components.items() if n in named}
+    then = replace(goal, components={**goal.components, **neat})
+    made = {name: entries(setup, name, some, then, wanted) for name, some in sorted(named.items())}
+    home = {name: {"slot": setup.lab.inventory[name].home} for name in made.keys() - wanted.components.keys()}
+    return {name: change for name, change in made.items() if change not in ({}, home.get(name))}
+
+
+def entries(
+    setup: Setup, name: str, some: frozenset[str] | None, then: LabState, now: LabState
+) -> Mapping[str, Change] | None:
+    """Return the entries of a component to write for it, or for `some` of its tunables, to be as `then`.
+
+    None takes the component out of the manifest, which brings it home.
+    """
+    was, is_ = then.components.get(name), now.components.get(name)
+    if was is None and some is None:
+        return None if is_ else {}
+    made: dict[str, Change] = {}
+    if some is None or "pose" in some:
+        made |= _exact_place(setup, name, was, is_)
+    values, old = (part.given if part else {} for part in (was, is_))
+    for tunable in sorted(values.keys() | old.keys()):
+        if holds({name: some}, name, tunable) and values.get(tunable) != old.get(tunable):
+            made[tunable] = values.get(tunable)
+    home = setup.lab.inventory[name].home
+    if made and is_ is None and home and not made.keys() & {"slot", "pose"}:
+        made["slot"] = home
+    return made
+
+
+def _exact_place(setup: Setup, name: str, was: ComponentState | None, is_: ComponentState | None) -> dict[str, Change]:
+    home = setup.lab.inventory[name].home
+    slot = was.slot if was else home
+    pose = was.pose if was else None
+    if slot:
+        return {} if is_ and is_.slot == slot else {"slot": slot}
+    if pose:
+        return {} if is_ and is_.pose == pose else {"pose": pose}
+    return {"pose": None} if is_ and is_.pose else {}
+
+
+def _neat(setup: Setup, name: str, part: ComponentState, now: ComponentState | None) -> ComponentState:
+    """Return a component with its numbers rounded to their resolution; axes of its pose that are as `now` stay so."""
+    values = {k: rounded(setup, name, k, v) if _known(setup, name, k) else v for k, v in part.values.items()}
+    if part.pose is None:
+        return replace(part, values=values)
+    step, there = setup.type_of(name).pose.resolution, now.pose if now else None
+
+    def neat(axis: str, fine: float) -> float:
+        asked, has = getattr(part.pose, axis), getattr(there, axis, math.inf)
+        return float(has if abs(has - asked) < fine / 2 else _round(asked, fine))
+
+    pose = Pose(neat("x", step.position), neat("y", step.position), neat("yaw", step.yaw))
+    return replace(part, values=values, pose=pose)
 
 
 def _known(setup: Setup, name: str, tunable: str) -> bool:

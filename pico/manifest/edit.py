@@ -61,7 +61,12 @@ def capture(
     put into the file that holds most. Raises PicoError for files that hold no LabState, or one that can't be written
     to.
     """
-    changes = differences(setup, wanted, live, named)
+    return spliced(files, differences(setup, wanted, live, named))
+
+
+def spliced(files: Mapping[str, bytes], changes: Changes) -> dict[str, bytes]:
+    """Return the manifests that must change for `changes` to be made in them, each in the file that names its
+    component, else in the one that names most. Raises PicoError as `capture` does."""
     if not changes:
         return {}
     texts = {path: data.decode("utf-8") for path, data in sorted(files.items()) if _is_state(path, data)}
@@ -70,7 +75,7 @@ def capture(
     held = {path: _named(text) for path, text in texts.items()}
     owner = {name: path for path, names in held.items() for name in names}
     largest = max(texts, key=lambda path: len(held[path]))
-    by_file: dict[str, dict[str, Mapping[str, Change]]] = {}
+    by_file: dict[str, dict[str, Mapping[str, Change] | None]] = {}
     for name, entries in changes.items():
         by_file.setdefault(owner.get(name, largest), {})[name] = entries
     return {path: set_values(texts[path], part).encode("utf-8") for path, part in by_file.items()}

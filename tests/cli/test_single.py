@@ -59,6 +59,27 @@ def test_what_is_wanted_is_written_into_the_manifest_as_the_least_change(shel: P
     assert pico("get", "p2.pose", "--json").data["values"]["pose"]["value"]["x"] != 540
 
 
+def test_a_manifest_says_what_was_asked_for_however_near_and_in_that_form(shel: Path, pico: Pico) -> None:
+    table = shel / "state/table.yaml"
+    before = table.read_text()
+    assert pico("move", "p2", "x=520.1", "--manifest").code == 0  # within its tolerance
+    assert table.read_text() == before.replace("x: 520", "x: 520.1")
+    assert "the manifest says so already" in pico("move", "p2", "x=520.1", "--manifest").out
+    pico("move", "p2", "x=200", "y=220", "yaw=0", "--manifest")  # where p2 stands, in its slot
+    assert "x: 200" in table.read_text() and "slot: storage/b2" not in table.read_text()
+    dry = pico("move", "p2", "storage/b2", "--manifest", "--dry-run")
+    assert "Nothing was written." in dry.out and "slot: storage/b2" not in table.read_text()
+    assert "Wrote 1 tunable" in pico("move", "p2", "storage/b2", "--manifest").out
+    assert "slot: storage/b2" in table.read_text()
+    unnamed = before.replace("    angle: 22.75\n", "")
+    table.write_text(unnamed)
+    assert pico("set", "hwp", "angle=10", "--manifest").code == 0
+    assert table.read_text() == before.replace("angle: 22.75", "angle: 10")
+    table.write_text(before)
+    assert pico("set", "p1", "angle=90.05", "--manifest").code == 0
+    assert table.read_text() == before.replace("angle: 90", "angle: 90.05", 1)
+
+
 def test_what_is_so_already_is_not_taken_for_the_manifest(shel: Path, pico: Pico) -> None:
     pico("set", "p1", "angle=5", "-y")
     answer = pico("set", "p1", "angle=5", "-y")

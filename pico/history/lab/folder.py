@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
@@ -322,10 +322,22 @@ class LabFolder:
 
         `named`: only these tunables. Without `write`, say what would be written.
         """
+        return self._written(lambda: self._spliced(live, named), write)
+
+    def write_wanted(self, goal: LabState, named: Named, *, write: bool = True) -> Captured:
+        """Write what `goal` says of `named` into the manifests, as it says it; raises PicoError. Without `write`, say
+        what would be written."""
+        from pico.manifest.changes import asked_for
+        from pico.manifest.edit import spliced
+
+        return self._written(lambda: spliced(self._files, asked_for(self.setup, self.state, goal, named)), write)
+
+    def _written(self, splicing: Callable[[], dict[str, bytes]], write: bool) -> Captured:
+        """Write what `splicing` makes of the files as they are by then; without `write`, say what it would."""
         if not write:
-            return self.preview(live, named)[0]
+            return self._captured(splicing(), written=False)[0]
         with self.writing("pico capture"):
-            spliced = self._spliced(live, named)
+            spliced = splicing()
             found, manifests = self._captured(spliced, written=True)
             for name, data in sorted(spliced.items()):
                 write_file(Path(name), data, self.root / ".pico")

@@ -10,13 +10,13 @@ from pico.diagnostics import PicoError, error
 from pico.history.lab.files import write_files
 from pico.history.lab.folder import LabFolder
 from pico.manifest.changes import Change as Entry
+from pico.manifest.changes import entries
 from pico.manifest.edit import set_values
 from pico.manifest.files import read_folder, shown_path
 from pico.manifest.load import Manifests, load_files
-from pico.model.address import addresses, holds, read_addresses
+from pico.model.address import addresses, read_addresses
 from pico.model.diff import Change, diff_states
-from pico.model.setup import Setup
-from pico.model.state import ComponentState, LabState
+from pico.model.state import LabState
 
 _GONE = ("unknown-component", "unknown-slot")
 
@@ -79,40 +79,6 @@ def state_for(folder: LabFolder, manifests: Manifests, revision: str, names: Ite
     lab, state = folder.setup.lab, folder.historic(revision)[1]
     parts = {n: p for n, p in state.components.items() if n in lab.inventory and (not p.slot or p.slot in lab.slots)}
     return replace(state, components=parts)
-
-
-def entries(
-    setup: Setup, name: str, some: frozenset[str] | None, then: LabState, now: LabState
-) -> Mapping[str, Entry] | None:
-    """Return the entries of a component to write for it, or for `some` of its tunables, to be as `then`.
-
-    None takes the component out of the manifest, which brings it home.
-    """
-    was, is_ = then.components.get(name), now.components.get(name)
-    if was is None and some is None:
-        return None if is_ else {}
-    made: dict[str, Entry] = {}
-    if some is None or "pose" in some:
-        made |= _place(setup, name, was, is_)
-    values, old = (part.given if part else {} for part in (was, is_))
-    for tunable in sorted(values.keys() | old.keys()):
-        if holds({name: some}, name, tunable) and values.get(tunable) != old.get(tunable):
-            made[tunable] = values.get(tunable)
-    home = setup.lab.inventory[name].home
-    if made and is_ is None and home and not made.keys() & {"slot", "pose"}:
-        made["slot"] = home
-    return made
-
-
-def _place(setup: Setup, name: str, was: ComponentState | None, is_: ComponentState | None) -> dict[str, Entry]:
-    home = setup.lab.inventory[name].home
-    slot = was.slot if was else home
-    pose = was.pose if was else None
-    if slot:
-        return {} if is_ and is_.slot == slot else {"slot": slot}
-    if pose:
-        return {} if is_ and is_.pose == pose else {"pose": pose}
-    return {"pose": None} if is_ and is_.pose else {}
 
 
 def _owners(

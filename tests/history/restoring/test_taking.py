@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from examples import examples
-from pico.history.restoring.selected import entries
+from pico.manifest.changes import entries
 from pico.manifest.edit import set_values
 from pico.manifest.load import load_files, load_folder
 from pico.model.address import holds, read_addresses
