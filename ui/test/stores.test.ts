@@ -52,7 +52,7 @@ describe("marks", () => {
 
 describe("what needs attention", () => {
   const row = { component: "p2", tunable: "pose", edited: false, off: false, drifted: false, note: "" };
-  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here" };
+  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here", busy: false };
   const status = (...rows: object[]) => ({ rows: rows.map((more) => ({ ...row, ...more })) }) as unknown as Status;
   it("is nothing where all is well", () => expect(needs({ ...calm, status: status({}) })).toEqual([]));
   it("leads to where it is mended, the worst first", () => {
@@ -66,6 +66,9 @@ describe("what needs attention", () => {
       ["bad", null], ["bad", "inspect"], ["bad", "runs"], ["warn", "plan"], ["warn", "plan"], ["warn", "plan"], ["warn", "inspect"],
     ]);
     expect(found.at(-1)!.text).toBe("1 edit in no commit: p1.angle");
+    const held = { ...calm, scene: { components: [{ name: "p2", type: "polarizer", state: "held", held_by: "arm1" }] } as unknown as Scene };
+    expect(needs(held).map((one) => one.text)).toEqual(["arm1 holds p2, and nothing goes on"]);
+    expect(needs({ ...held, busy: true })).toEqual([]);
     expect(found[3]!.text).toMatch(/^1 goal found by light is not reached any more: p2.angle/);
   });
 });

@@ -18,6 +18,8 @@ export interface Known {
   runs: RunDocument[];
   line: "opening" | "open" | "lost";
   edge: "here" | "away";
+  /** Whether somebody has the bench, as every run does. */
+  busy: boolean;
 }
 
 /** A value that is found by light, not told: `{"null_of": [...]}`. */
@@ -31,7 +33,7 @@ function listed(rows: StatusRow[]): string {
 }
 
 /** What needs attention, the worst first. */
-export function needs({ status, scene, runs, line, edge }: Known): Need[] {
+export function needs({ status, scene, runs, line, edge, busy }: Known): Need[] {
   const rows = status?.rows ?? [], found: Need[] = [];
   if (line === "lost") found.push({ tone: "bad", text: "The line to the coordinator is lost", mend: "it is tried again by itself", to: null });
   else if (edge === "away") found.push({ tone: "bad", text: "The bench's edge is not connected", mend: "start `pico edge` beside the table", to: null });
@@ -39,6 +41,7 @@ export function needs({ status, scene, runs, line, edge }: Known): Need[] {
     const to = { tab: "inspect" as const, query: { part: one.name } };
     if (one.state === "lost") found.push({ tone: "bad", text: `${one.name}: nobody sees it`, mend: "look where it is", to });
     else if (one.type === "" && one.position) found.push({ tone: "bad", text: `${one.name} stands on the table and is not in the inventory`, mend: "look what it is", to });
+    else if (one.state === "held" && !busy) found.push({ tone: "bad", text: `${one.held_by ?? "A hand"} holds ${one.name}, and nothing goes on`, mend: "look at the run: Recover sets it down", to: { tab: "runs", query: runs[0] ? { run: runs[0].id } : {} } });
   }
   const last = runs[0];
   if (last && !["", "done"].includes(last.outcome))

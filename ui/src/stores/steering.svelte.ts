@@ -14,7 +14,7 @@ const OFTEN = 33, SELDOM = 100;
 export interface Jogged { unit: string; longest: number; range: [number, number] | null; period: number | null; steps: number[] }
 export interface Begun { schema: "pico.steered/v1"; run: string; operation: string; component: string; robot: string | null; tunables: Record<string, Jogged> }
 /** What it came to, one transition. */
-export interface Came { component: string; run: string; first: Record<string, number>; last: Record<string, number>; steps: number; refused: number; presses: Record<string, number>; after: number; outcome: string; wrong: Diagnostic[] }
+export interface Came { component: string; robot: string | null; run: string; first: Record<string, number>; last: Record<string, number>; steps: number; refused: number; presses: Record<string, number>; after: number; outcome: string; wrong: Diagnostic[] }
 
 class Steering {
   begun = $state.raw<Begun | null>(null);
@@ -124,9 +124,9 @@ class Steering {
   }
 
   #comes(data: Partial<Came>): void {
-    const { component, run } = this.begun!;
+    const { component, robot, run } = this.begun!;
     const none = { first: {}, last: {}, steps: this.answer?.steps ?? 0, refused: 0, presses: {}, after: 0, outcome: "", wrong: [] };
-    this.came = { ...none, ...data, component, run };
+    this.came = { ...none, ...data, component, robot, run };
   }
 
   #lost(link: Link): void {

@@ -2,7 +2,7 @@
 
 import {
   BufferGeometry, CanvasTexture, Color, CylinderGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineDashedMaterial, Mesh,
-  MeshBasicMaterial, Quaternion, Shape as Outline, ShapeGeometry, Sprite, SpriteMaterial, Vector3,
+  MeshBasicMaterial, Path, Quaternion, Shape as Outline, ShapeGeometry, Sprite, SpriteMaterial, SRGBColorSpace, Vector2, Vector3,
 } from "three";
 import { component } from "./building";
 import type { Area, Beam, Component, Table } from "./scene";
@@ -18,6 +18,8 @@ export interface Ghost {
 }
 
 const TONES = { to: 0x1f8fff, from: 0x8a94a0, staged: 0xd98e04, bad: 0xe0413a };
+/** The same below white words. */
+const PLATES = { to: 0x0f6fd0, from: 0x66717d, staged: 0x9a6200, bad: 0xc4302a };
 
 /** A part where it is to stand, with a number above. */
 export function ghost(one: Ghost, part: Component, from: [number, number] | null, height: number): Group {
@@ -30,7 +32,7 @@ export function ghost(one: Ghost, part: Component, from: [number, number] | null
   model.rotation.z = (one.yaw * Math.PI) / 180;
   made.add(model);
   if (one.label) {
-    const label = one.label.length > 3 ? tag(one.label, TONES[one.tone]) : badge(one.label, TONES[one.tone]);
+    const label = one.label.length > 3 ? tag(one.label, PLATES[one.tone]) : badge(one.label, PLATES[one.tone]);
     label.position.set(one.x, one.y, height);
     made.add(label);
   }
@@ -59,7 +61,7 @@ export function badge(text: string, colour: number): Sprite {
   pen.textAlign = "center";
   pen.textBaseline = "middle";
   pen.fillText(text, 32, 34);
-  const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
+  const made = new Sprite(new SpriteMaterial({ map: painted(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
   made.scale.setScalar(0.03);
   made.renderOrder = 10;
   return made;
@@ -78,18 +80,26 @@ export function tag(text: string, colour: number): Sprite {
   pen.fill();
   Object.assign(pen, { fillStyle: "#fff", font, textAlign: "center", textBaseline: "middle" });
   pen.fillText(text, canvas.width / 2, 30);
-  const made = new Sprite(new SpriteMaterial({ map: new CanvasTexture(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
+  const made = new Sprite(new SpriteMaterial({ map: painted(canvas), depthTest: false, sizeAttenuation: false, toneMapped: false }));
   made.scale.set((0.026 * canvas.width) / canvas.height, 0.026, 1);
   made.renderOrder = 11;
   return made;
 }
 
-/** A ring around the footprint of a part. */
-export function ring(part: Component, colour: number): Line {
+function painted(canvas: HTMLCanvasElement): CanvasTexture {
+  const made = new CanvasTexture(canvas);
+  made.colorSpace = SRGBColorSpace;
+  return made;
+}
+
+/** A band around the footprint of a part. */
+export function ring(part: Component, colour: number): Mesh {
   const { box } = part.footprint ?? {};
-  const corners = box ? rectangle(box[0], box[1]) : circle(30);
-  const points = [...corners, corners[0]!].map(([x, y]) => new Vector3(x * 1.15, y * 1.15, 0));
-  const made = new Line(new BufferGeometry().setFromPoints(points), new LineBasicMaterial({ color: colour, depthTest: false }));
+  const [width, depth] = box ?? [60, 60];
+  const corners = (by: number) => (box ? rectangle(width + by, depth + by) : circle(30 + by / 2)).map(([x, y]) => new Vector2(x, y));
+  const shape = new Outline(corners(18));
+  shape.holes.push(new Path(corners(6)));
+  const made = new Mesh(new ShapeGeometry(shape), new MeshBasicMaterial({ color: colour, toneMapped: false, transparent: true, depthTest: false, side: DoubleSide }));
   made.renderOrder = 9;
   return made;
 }

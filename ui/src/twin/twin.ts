@@ -57,6 +57,10 @@ export class Twin {
   #selected: number | null = null;
   #blocked: number[] = [];
   #follow = false;
+  /** The view that is fitted into the picture; null once somebody looks from elsewhere. */
+  #view: View | null = null;
+  /** How wide the picture was, and how it was zoomed, when somebody looked from there last. */
+  #looked = { aspect: 1, zoom: 1 };
   #ruler: { snap: Snap; from: Vec | null } | null = null;
   #down: [number, number] | null = null;
   drag: Drag | null = null;
@@ -73,6 +77,8 @@ export class Twin {
     this.#controls = new OrbitControls(this.#camera, canvas);
     this.#controls.maxPolarAngle = Math.PI / 2 - 0.02;
     this.#controls.addEventListener("change", () => (this.#dirty = true));
+    this.#controls.addEventListener("start", () => (this.#view = null));
+    this.#controls.addEventListener("end", () => this.#keep(this.#camera.zoom));
     const names = ["table", "slots", "reach", "parts", "arms", "beams", "ghosts", "phantom", "marks", "ruler"] as const;
     this.#layers = Object.fromEntries(names.map((name) => [name, new Group()])) as never;
     this.#stage.add(...Object.values(this.#layers));
@@ -209,6 +215,7 @@ export class Twin {
     if (name !== "top") for (const { mount } of this.#scene?.arms ?? []) corners.push(new Vector3(mount.x, mount.y, ARM_HEIGHT));
     const from = { iso: [-0.45, -1, 0.85], top: [0, -0.001, 1], front: [0, -1, 0.12], side: [1, -0.05, 0.25] }[name] as Vec;
     this.#follow = false;
+    this.#view = name;
     this.#fit(corners, new Vector3(...from).normalize());
   }
 
@@ -217,6 +224,7 @@ export class Twin {
     const group = this.#parts.get(part);
     if (!group) return;
     this.#follow = follow;
+    this.#view = null;
     const from = this.#camera.position.clone().sub(this.#controls.target).normalize();
     this.#look(group.position.clone().setZ(60), from, 190);
   }
@@ -287,6 +295,7 @@ export class Twin {
 
   /** Look so that all of some points are in the picture, seen along a direction. */
   #fit(points: Vector3[], from: Vector3): void {
+    this.#keep(1);
     const target = points.reduce((sum, one) => sum.add(one), new Vector3()).divideScalar(points.length);
     const right = new Vector3().crossVectors(this.#camera.up, from).normalize(), up = new Vector3().crossVectors(from, right);
     const high = Math.tan((this.#camera.fov * Math.PI) / 360), wide = high * this.#camera.aspect;
@@ -313,6 +322,7 @@ export class Twin {
   }
 
   #look(target: Vector3, from: Vector3, radius: number): void {
+    this.#keep(1);
     const half = (this.#camera.fov * Math.PI) / 360;
     const far = radius / Math.tan(half) / Math.min(1, this.#camera.aspect) * 1.02;
     this.#controls.target.copy(target);
@@ -405,12 +415,20 @@ export class Twin {
   #resized(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas.parentElement ?? this.canvas;
     if (!width || !height) return;
-    const before = this.#camera.aspect;
     this.#renderer.setSize(width, height, false);
+    const { aspect, zoom } = this.#looked;
     this.#camera.aspect = width / height;
+    this.#camera.zoom = zoom * Math.min(1, this.#camera.aspect / aspect);
     this.#camera.updateProjectionMatrix();
-    if (Math.abs(before - this.#camera.aspect) > 0.2 && this.#scene) this.view("iso");
+    if (this.#view) this.view(this.#view);
     this.#dirty = true;
+  }
+
+  /** Somebody looks from here: whatever is in the picture now stays in it when the picture's size changes. */
+  #keep(zoom: number): void {
+    this.#looked = { aspect: this.#camera.aspect, zoom };
+    this.#camera.zoom = zoom;
+    this.#camera.updateProjectionMatrix();
   }
 
   #tick = (now: number): void => {
