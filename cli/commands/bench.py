@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
-from pico.diagnostics import ExitCode
+from pico.diagnostics import ExitCode, PicoError
 
 from ..arguments import Yes, group
 from ..session import Session
@@ -41,8 +41,16 @@ def list_(context: typer.Context) -> None:
     session = Session.of(context)
     root = find_lab(session.folder)
     known = remotes.known(root)
-    found = {name: ask(one, "GET", "/benches") for name, one in sorted(known.named.items())}
+    found, away = dict[str, Any](), list[PicoError]()
+    for name, one in sorted(known.named.items()):
+        try:
+            found[name] = ask(one, "GET", "/benches")
+        except PicoError as exc:  # the others are there
+            away.append(exc)
+    if away and not found:
+        raise away[0]
     session.show(benches_view, found, remotes.chosen(root, session.at))
+    session.tell([replace(d, severity="warning") for exc in away for d in exc.diagnostics])
 
 
 @app.command()

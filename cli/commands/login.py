@@ -29,20 +29,22 @@ def login(
     """Be known to a coordinator from now on.
 
     By a one-time code, else by a token, which is asked for (or read from standard input). The token is kept for you
-    alone in your own configuration, not in a checkout. What runs by itself has one in PICO_TOKEN.
+    alone in your own configuration, not in a checkout; the certificate, too. What runs by itself has one in PICO_TOKEN.
 
     Examples:
       pico login https://lab.example --code 3f7c-91aa
       pico login lab < token
     """
     from pico.edge.network.asking import ask
-    from pico.edge.network.tokens import keep_token
+    from pico.edge.network.tokens import keep_certificate, keep_token
 
     session = Session.of(context)
     remote = _meant(session, where, certificate)
     token = _exchanged(remote, code.strip()) if code else _asked(remote.url)
     me = ask(remote, "GET", "/whoami", token=token)
     keep_token(remote.url, token)
+    if remote.certificate:
+        keep_certificate(remote.url, remote.certificate)
     session.show(view, remote.url, me)
 
 

@@ -52,6 +52,8 @@ def serve(
         text = f"serving needs {', '.join(missing)}"
         raise PicoError(error("missing-extra", text, hint="pip install 'pico-lab[server]'"))
     session = Session.of(context)
+    if key and not certificate:
+        raise PicoError(error("tls", "a key without a certificate serves nobody", hint="`--certificate FILE` names it"))
     if demo and certificate:
         raise PicoError(error("usage", "a demonstration is for this machine alone", hint="leave `--certificate` out"))
     place = session.folder / folder if folder else _own(f"demo-{demo}" if demo else "coordinator")
@@ -77,6 +79,10 @@ async def _serve(
     from ..warm import WORDS
 
     secure = tls[0] is not None
+    if demo is not None:
+        from pico.history.examples.example import require_example
+
+        require_example(demo)
     with listening(*at, tls=secure) as listener:
         books = books_in(folder)
         try:

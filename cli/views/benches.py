@@ -24,7 +24,7 @@ def text(found: Found, meant: Far | None) -> str:
         for one in benches
     ]
     if not rows:
-        return "No benches that you may see. An admin enrols one with `pico edge enrol`, and gives roles."
+        return "No benches that you may see. An admin enrols one (`pico token enrol LAB/BENCH`), and gives roles."
     last = "Commands mean the one marked *." if meant else "`pico bench use LAB/BENCH` lets commands mean one of them."
     return "\n".join([*columns(rows), last])
 

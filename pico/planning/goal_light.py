@@ -23,13 +23,15 @@ class GoalLight:
     alone; the `sources` of the beams. `order`: how far along its beam the first part that is tuned stands [mm]; None
     where light does not come through all that is tuned to all that is measured: then nothing is to be aligned.
     `beyond`: parts behind the last polarizer, where the angle of a polarizer or wave plate is sought: how much light
-    they let through turns no null."""
+    they let through turns no null. `dark`: what is tuned and no light comes through, and
+    detectors that none reaches."""
 
     parts: frozenset[str]
     detectors: frozenset[str]
     sources: frozenset[str]
     order: float | None
     beyond: frozenset[str] = frozenset()
+    dark: frozenset[str] = frozenset()
 
 
 def goal_light(setup: Setup, seen: Observation, goal: Goal) -> GoalLight:
@@ -59,7 +61,7 @@ def _light(setup: Setup, seen: Observation, goal: Goal, values: Values) -> GoalL
     there = bool(lengths) and reached == detectors and tuned <= met | sources
     return GoalLight(
         frozenset(met | sources | detectors | tuned), detectors, frozenset(sources), min(lengths) if there else None,
-        frozenset(met - counting - detectors),
+        frozenset(met - counting - detectors), frozenset((tuned - met - sources) | (detectors - reached)),
     )  # fmt: skip
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, slot_meant
 from pico.model.diff import Change, describe_value
-from pico.model.observation import Observation, live_state
+from pico.model.observation import Observation, live_state, slot_at
 from pico.model.operation import Operation, Reason, new_id
 from pico.model.plan import Target
 from pico.model.pose import Pose
@@ -23,6 +23,7 @@ from pico.model.vocabulary import measured_in
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.conditions import refused
 from pico.planning.checks.emission import left_shut
+from pico.planning.goal_light import goal_light, standing_poses
 from pico.planning.measuring import measuring, unlit
 from pico.planning.optimizing import Turn, optimizing
 from pico.planning.parts.setdown import parked_first
@@ -136,11 +137,13 @@ def optimize_one(
     leaves all else as it is. `right`: benches with the light that it is to have; what is seen to stand otherwise is
     made up for. `took`: the seconds that it is reckoned with, where that is known.
 
-    Raises PicoError for a component that is not seen, and for tunables of which nobody knows where they stand.
+    Raises PicoError for a component that is not seen, for one in storage, through which no light comes, and for
+    tunables of which nobody knows where they stand.
     """
     setup, seen = planner.setup, planner.seen
     for component in {address.partition(".")[0] for address in tunables_of(one, first)}:
         _part(setup, seen, component)
+    _require_unstored(setup, seen, one)
     texts = [text for stage in (*first, one) for text in stage.goal.texts]
     return _asked(
         planner, optimizing(setup, seen, [Turn(one, tuple(first), took, right=tuple(right))], planner.motion),
@@ -222,6 +225,17 @@ def _part(setup: Setup, seen: Observation, component: str) -> None:
         hint = "`pico recover` sets it down" if what == "held" else "`pico drift` says what is seen of it"
         text = f"{component} is {what}: it must be seen standing on the table first"
         raise PicoError(error("missing", text, hint=hint))
+
+
+def _require_unstored(setup: Setup, seen: Observation, one: Sought) -> None:
+    """Raise PicoError where a part of a goal is in storage, where no light is to be found however it is tuned."""
+    poses = standing_poses(seen)
+    stored = {name: slot_at(setup, poses[name]) for name in poses if setup.movable(name)}
+    for name in sorted(goal_light(setup, seen, one.goal).dark):
+        if slot := stored.get(name):
+            text = f"{name} is in {slot}, and no light of {one.name} comes there"
+            hint = f"bring it there first: `pico move {name} x=... y=...`, or `pico apply` of a state with it"
+            raise PicoError(error("goal", text, hint=hint, address=name))
 
 
 def _tunable(setup: Setup, seen: Observation, component: str, tunable: str) -> None:

@@ -47,9 +47,17 @@ def server(app: Any, certificate: Path | None = None, key: Path | None = None) -
     try:
         config.load()
     except (OSError, ValueError) as exc:
-        text = f"the certificate {certificate} can't be used: {exc}"
-        raise PicoError(error("tls", text, hint="`--certificate` and `--key` name files in PEM form")) from exc
+        raise _unusable(certificate, key, exc) from exc
     return _Server(config)
+
+
+def _unusable(certificate: Path | None, key: Path | None, why: Exception) -> PicoError:
+    hint = "`--certificate` and `--key` name files in PEM form, which belong together"
+    for file in (certificate, key):
+        if file is not None and not file.is_file():
+            return PicoError(error("tls", f"there is no file {file}", hint=hint))
+    both = f"certificate {certificate} and key {key}" if key else f"certificate {certificate}, in which a key must be"
+    return PicoError(error("tls", f"TLS does not take the {both}: {why}", hint=hint))
 
 
 def configured(app: Any, **more: Any) -> uvicorn.Config:

@@ -108,6 +108,7 @@ def test_without_a_goal_they_are_listed_and_a_dry_run_moves_nothing(placed: Path
         (("centered",), "did you mean `centred`"),
         (("centre", "ly_150"), "centre PART... CAMERA"),
         (("focus", "ly_150", "cam"), "`focus`: ly_150 has nothing to tune"),
+        (("centre", "ly_200", "cam"), "ly_200 is in storage/a4, and no light of centre ly_200 cam comes there"),
         (("centre", "ly_150", "p1"), "p1 does not measure a centroid"),
         (("centred", "--algorithm", "malus"), "malus takes 1 tunables, not 2"),
         (("centred", "--algorithm", "newton"), "there is no algorithm `newton`"),

@@ -89,6 +89,10 @@ def test_from_a_code_to_the_bench_that_commands_mean(coordinator: Served, lab: P
     again = pico("login", "lab", "--code", code)
     assert again.code == ExitCode.DENIED and "does not take this code" in again.err
     assert "No benches that you may see" in pico("bench", "list").out
+    assert pico("remote", "add", "gone", "http://127.0.0.1:9").code == 0  # the others are listed all the same
+    listed = pico("bench", "list")
+    assert listed.code == 0 and "http://127.0.0.1:9 does not answer" in listed.err
+    assert pico("remote", "remove", "gone").code == 0
     coordinator.person("ann", "viewer@shel")
     listed = pico("--json", "bench", "list").data
     assert [(b["remote"], b["bench"], b["holder"]) for b in listed["benches"]] == [("lab", BENCH, None)]

@@ -69,15 +69,18 @@ def test_clients_know_it_by_its_certificate_and_edges_by_its_pin(tmp_path: Path,
         url = coordinator["url"]
         assert url.startswith("https://")
         stranger = pico("login", url, "--code", coordinator["code"])
-        assert stranger.returncode == 1 and "pico remote add NAME URL --certificate FILE" in stranger.stderr
-        assert pico("-C", desk, "remote", "add", "lab", url, "--certificate", str(shown)).returncode == 0
-        assert "You are admin" in pico("-C", desk, "login", "lab", "--code", coordinator["code"]).stdout
+        assert stranger.returncode == 1 and f"pico login {url} --certificate FILE" in stranger.stderr
+        known = pico("login", url, "--code", coordinator["code"], "--certificate", str(shown))
+        assert "You are admin" in known.stdout and "admin" in pico("token", "people").stdout  # in no checkout
+        assert pico("-C", desk, "remote", "add", "lab", url).returncode == 0
         made = json.loads(pico("-C", desk, "--json", "token", "enrol", "minimal/bench1").stdout)["enrolment"]
         enrol = ("-C", table, "edge", "enrol", url, "--code", made["code"])
         unpinned, wrong = pico(*enrol), pico(*enrol, "--pin", "00" + pin[2:])
         assert unpinned.returncode == 1 and "`--pin` with the SHA-256" in unpinned.stderr
-        assert wrong.returncode == 1 and "another certificate" in wrong.stderr
-        assert pico(*enrol, "--pin", pin).returncode == 0
+        assert wrong.returncode == 1 and "another certificate" in wrong.stderr and pin[:16] in wrong.stderr
+        assert "is no SHA-256" in pico(*enrol, "--pin", pin[2:]).stderr
+        printed = ":".join(pin[n : n + 2] for n in range(0, 64, 2)).upper()  # as openssl prints it
+        assert pico(*enrol, "--pin", f"sha256 Fingerprint={printed}").returncode == 0
         with going_on(tmp_path, "-C", table, "edge"):
             applied = pico("-C", desk, "--bench", "minimal/bench1", "apply", "-y")
     assert applied.returncode == 0 and "The bench equals the manifest." in applied.stdout, applied.stderr

@@ -73,7 +73,7 @@ def test_the_first_admin_invites_somebody_whose_token_is_then_ended(serving: Any
 
 
 @pytest.mark.slow
-def test_a_port_that_is_taken_and_an_address_without_tls_are_refused(serving: Any, pico: Pico) -> None:
+def test_a_port_that_is_taken_and_an_address_without_tls_are_refused(serving: Any, pico: Pico, tmp_path: Path) -> None:
     port = serving["url"].rpartition(":")[2]
     taken = pico("serve", "--folder", "other", "--port", port)
     assert (taken.returncode, taken.stdout) == (5, "") and f"port {port}" in taken.stderr
@@ -81,4 +81,8 @@ def test_a_port_that_is_taken_and_an_address_without_tls_are_refused(serving: An
         answer = pico("serve", "--folder", "other", "--port", "0", "--host", host)
         assert answer.returncode == 1 and answer.stderr.startswith("error[insecure]: "), host
     missing = pico("serve", "--folder", "other", "--port", "0", "--certificate", "no.pem", "--key", "no.key")
-    assert missing.returncode == 1 and missing.stderr.startswith("error[tls]: "), missing.stderr
+    assert missing.returncode == 1 and missing.stderr.startswith("error[tls]: there is no file no.pem"), missing.stderr
+    alone = pico("serve", "--folder", "other", "--port", "0", "--key", "no.key")
+    assert alone.returncode == 1 and "a key without a certificate" in alone.stderr
+    unknown = pico("serve", "--folder", "none", "--port", "0", "--demo", "shell")
+    assert "did you mean `shel`" in unknown.stderr and not (tmp_path / "none").exists()

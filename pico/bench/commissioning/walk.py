@@ -61,7 +61,8 @@ class Walk:
         edge = bench.edge
         if not isinstance(edge, LocalEdge):
             text = "the bench is served by another process, and a commissioning asks its instruments itself"
-            raise PicoError(error(CODE, text, hint="end that `pico edge` first"), ExitCode.LOCKED)
+            hint = "beside the table, in the lab's folder there, once `pico edge` has been ended"
+            raise PicoError(error(CODE, text, hint=hint), ExitCode.LOCKED)
         if not isinstance(edge.device, HardwareDevice):
             text = "nothing of a simulated bench has to be commissioned"
             raise PicoError(error(CODE, text, hint="`--backend hardware`; with `--emulate` to try it"))

@@ -12,6 +12,7 @@ import hashlib
 import http.client
 import json
 import os
+import re
 import secrets
 import ssl
 from dataclasses import asdict, dataclass
@@ -26,6 +27,7 @@ from pico.edge.protocol import ENROLMENT
 
 ANSWER = 20.0
 """Seconds in which a coordinator answers."""
+_SHA256 = re.compile("[0-9a-f]{64}")
 _LOCAL = ("127.0.0.1", "::1", "localhost")
 
 
@@ -75,7 +77,10 @@ def enrol(root: Path, url: str, code: str, pin: str = "") -> Enrolment:
     """Enrol the bench of the lab in `root` with the coordinator at `url`, by a code that was given for it; only that
     one grants it from then on. Raises PicoError."""
     where, key = _checked(url), secrets.token_bytes(32)
-    pin = pin.replace(":", "").lower()
+    pin = pin.rpartition("=")[2].replace(":", "").strip().lower()  # also as openssl prints it, with a name before
+    if pin and not _SHA256.fullmatch(pin):
+        hint = "64 hexadecimal digits, as `openssl x509 -noout -fingerprint -sha256 -in lab.pem` prints them"
+        raise PicoError(error("enrolment", f"`{pin[:80]}` is no SHA-256 of a certificate", hint=hint))
     found = _posted(where, pin, {"code": code, "key": key.hex()})
     enrolment = Enrolment(where.geturl(), str(found["bench"]), key.hex(), pin)
     path = bench_folder(root) / ENROLMENT
@@ -139,7 +144,8 @@ def _context(pin: str) -> ssl.SSLContext:
 
 
 def _require_pinned(url: str, pin: str, certificate: bytes | None) -> None:
-    if pin and hashlib.sha256(certificate or b"").hexdigest() != pin:
-        text = f"{url} shows another certificate than the bench was enrolled with"
+    shown = hashlib.sha256(certificate or b"").hexdigest()
+    if pin and shown != pin:
+        text = f"{url} shows another certificate than is pinned: its SHA-256 begins with {shown[:16]}, not {pin[:16]}"
         hint = "if it was renewed: `pico edge enrol` again, with the new `--pin`"
         raise PicoError(error("enrolment", text, hint=hint))

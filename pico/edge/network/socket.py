@@ -15,7 +15,7 @@ from pico.diagnostics import PicoError
 from pico.edge.link import wire
 from pico.edge.network.remotes import Far, Remote
 from pico.edge.network.session import session_in
-from pico.edge.network.tokens import token_of
+from pico.edge.network.tokens import certificate_of, token_of
 from pico.edge.network.trouble import Gone, away, missing_extra, refused, untrusted
 
 Hear = Callable[[Mapping[str, Any] | Gone], None]
@@ -96,8 +96,8 @@ def context(remote: Remote) -> ssl.SSLContext | None:
     if not remote.url.startswith("https:"):
         return None
     found = ssl.create_default_context()
-    if remote.certificate:
-        found.load_verify_locations(cadata=remote.certificate)
+    if own := remote.certificate or certificate_of(remote.url):
+        found.load_verify_locations(cadata=own)
     return found
 
 

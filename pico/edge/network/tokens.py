@@ -1,4 +1,5 @@
-"""What a user is known by to coordinators: a token each, in a file that only that user may read.
+"""What a user is known by to coordinators: a token each, in a file that only that user may read; and by what the user
+knows those that signed their certificate themselves.
 
 `PICO_TOKEN` comes before it, for what runs by itself. No token lies in a checkout: a commit could carry it.
 """
@@ -31,6 +32,17 @@ def forget_token(url: str) -> None:
     _write({where: token for where, token in _read().items() if where != url.rstrip("/")})
 
 
+def keep_certificate(url: str, certificate: str) -> None:
+    """Keep the certificate (PEM) of the coordinator at `url`, which no authority signed; raises PicoError."""
+    kept = {**_certificates(), url.rstrip("/"): certificate}
+    write_whole(_certificates_file(), (json.dumps(kept, indent=1) + "\n").encode(), folders=True)
+
+
+def certificate_of(url: str) -> str:
+    """Return the certificate (PEM) that was kept of the coordinator at `url`; empty where there is none."""
+    return _certificates().get(url.rstrip("/"), "")
+
+
 def places() -> tuple[str, ...]:
     """Return the addresses of the coordinators that there are tokens for; raises PicoError."""
     return tuple(_read())
@@ -40,6 +52,21 @@ def tokens_file() -> Path:
     """Return where the tokens of this user are."""
     base = os.environ.get("XDG_CONFIG_HOME") or Path.home() / ".config"
     return Path(base) / "pico" / "tokens.json"
+
+
+def _certificates_file() -> Path:
+    return tokens_file().with_name("certificates.json")
+
+
+def _certificates() -> dict[str, str]:
+    path = _certificates_file()
+    try:
+        return {str(url): str(text) for url, text in json.loads(path.read_bytes()).items()}
+    except FileNotFoundError:
+        return {}
+    except (OSError, ValueError, AttributeError) as exc:
+        hint = "delete it, then `pico login URL --certificate FILE`"
+        raise PicoError(error("certificate", f"{path} can't be read: {exc}", hint=hint)) from exc
 
 
 def _read() -> dict[str, str]:

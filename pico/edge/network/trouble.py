@@ -28,13 +28,16 @@ def missing_extra(exc: ImportError) -> PicoError:
 def away(url: str, why: object) -> Gone:
     """Return what is said where a coordinator does not answer."""
     text = f"the coordinator at {url} does not answer: {str(why) or 'nothing came in time'}"
-    hint = "a run goes on beside the table, and tells of itself once the coordinator is back; `pico stop` there ends it"
+    hint = (
+        "is `pico serve` up there, and is that the address (`pico remote list`)? A run goes on beside the table "
+        "meanwhile, and tells of itself afterwards; `pico stop` there ends it"
+    )
     return Gone(error("away", text, hint=hint))
 
 
 def untrusted(url: str, why: object) -> PicoError:
     """Return what is said where nobody that is known here signed the certificate of a coordinator."""
-    hint = "if it signed that itself: `pico remote add NAME URL --certificate FILE`, with the file of its certificate"
+    hint = f"if it signed that itself: `pico login {url} --certificate FILE`, with the file of its certificate"
     return PicoError(error("certificate", f"{url} is not known for what it says it is: {why}", hint=hint))
 
 

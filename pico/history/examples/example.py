@@ -28,6 +28,13 @@ def example_names() -> tuple[str, ...]:
     return tuple(sorted(path.parent.name for path in labs_dir().glob(f"*/{_HISTORY}")))
 
 
+def require_example(name: str) -> None:
+    """Raise PicoError where there is no example of that name."""
+    if name not in example_names():
+        hint = did_you_mean(name, example_names())
+        raise PicoError(error("unknown-example", f"there is no example `{name}`", hint=hint))
+
+
 def make_example(name: str, folder: Path) -> Repository:
     """Make a Git repository in `folder` with the history of an example lab, checked out, and return it.
 
@@ -36,9 +43,7 @@ def make_example(name: str, folder: Path) -> Repository:
     """
     import yaml
 
-    if name not in example_names():
-        hint = did_you_mean(name, example_names())
-        raise PicoError(error("unknown-example", f"there is no example `{name}`", hint=hint))
+    require_example(name)
     if _make_folder(folder):
         raise PicoError(error("exists", f"{folder} is not empty", hint="name a new folder, or an empty one"))
     source = labs_dir() / name

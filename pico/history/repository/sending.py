@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from pico.edge.network.remotes import Far
-from pico.edge.network.tokens import token_of
+from pico.edge.network.tokens import certificate_of, token_of
 from pico.history.git.command import run
 
 DOING = "hand the lab over to its coordinator"
@@ -61,8 +61,8 @@ def _known(far: Far) -> Iterator[Mapping[str, str]]:
         "http.followRedirects": "false",
     }  # fmt: skip
     with tempfile.NamedTemporaryFile("w", suffix=".pem") as certificate:
-        if far.remote.certificate:
-            certificate.write(far.remote.certificate)
+        if own := far.remote.certificate or certificate_of(far.remote.url):
+            certificate.write(own)
             certificate.flush()
             values["http.sslCAInfo"] = certificate.name
         pairs = {f"GIT_CONFIG_{what}_{n}": text for n, pair in enumerate(values.items())

@@ -27,7 +27,11 @@ class Edges:
         lab, slash, name = bench.partition("/")
         if not slash:
             raise PicoError(
-                error("usage", f"`{bench[:80]}` names no bench", hint=f"LAB/BENCH, such as `lab/{bench[:64]}`")
+                error(
+                    "usage",
+                    f"`{bench[:80]}` names no bench",
+                    hint=f"LAB/BENCH, such as `{bench[:64] or 'shel'}/bench1`",
+                )
             )
         require_name(lab, "a lab")
         require_name(name, "a bench")
