@@ -135,7 +135,7 @@ def _optimize(
     session.show(view, found, chosen, bench.setup, report, advice=dark)
     session.tell(report.diagnostics)
     if found.points:
-        session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, path))
+        session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, chosen.goal, path))
     if report.exit_code:
         return int(report.exit_code)
     if found.why == STOPPED:

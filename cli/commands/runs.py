@@ -12,7 +12,7 @@ from pico.diagnostics import PicoError, error, warning
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, group, scope_of
 from ..session import Session
 from ..terminal.waiting import waiting
-from ..views import compared, exported, figured, plotted, published, replayed
+from ..views import compared, exported, figured, kept, plotted, published, replayed
 from ..views import recorded as view
 from ..views import runs as table
 from ..views.style import listed
@@ -344,6 +344,55 @@ def _plot_recipe(session: Session, word: str | None, folder: Path | None) -> Non
     returns = require_returned(found, recipe.name, about.id) if recipe.figures else {}
     figures = [(figure, curves_of(figure, returns, about.id)) for figure in recipe.figures.values()]
     session.show(figured, recipe, about, figures)
+
+
+@app.command()
+def pictures(
+    context: typer.Context,
+    run: Run = None,
+    of: Annotated[
+        list[str] | None,
+        typer.Option("--of", metavar="OPERATION", help="Of this alone, or by the SHA-256 of it; may be given again."),
+    ] = None,
+    width: Annotated[
+        int, typer.Option("--width", metavar="PIXELS", min=16, max=2048, help="Of a picture in JSON, at most.")
+    ] = 640,
+    out: Annotated[Path | None, typer.Option("--out", metavar="DIR", help="Write each as PNG, pixel by pixel.")] = None,
+) -> int:
+    """Show what cameras saw in a run, and how its searches went.
+
+    Lists them, or draws them into a folder. With --json each as data, a line each: pictures of cameras (small, with
+    the numbers of their kernels and marks), spectra, and each measurement of a search with the best so far.
+
+    Examples:
+      pico runs pictures
+      pico runs pictures 20260101 --out pictures
+      pico --json runs pictures 20260101 --of op1 --width 160
+    """
+    from pico.bench.picturing import kept as keeping
+    from pico.diagnostics import ExitCode
+    from pico.drawing.picture import write_png
+
+    session = Session.of(context)
+    history = _history(session)
+    found = keeping.kept(history.recorded_run(run)[0], of or ())
+    keeping.fetched(history.folder, found)
+    if out is None and not session.json:
+        session.say(kept.text(found, keeping.absent(history.folder, found)))
+        return ExitCode.DONE
+    wrong: list[Diagnostic] = []
+    for one in found:
+        try:
+            drawn = keeping.drawn(history.folder, one)
+            if session.json:
+                session.document(keeping.document(one, drawn, width))
+            if out is not None:
+                (session.folder / out).mkdir(parents=True, exist_ok=True)
+                session.draw(out / f"{one.name}.png", one.title, lambda path, d=drawn: write_png(d.picture(), path))  # type: ignore[misc]
+        except PicoError as exc:
+            wrong += exc.diagnostics
+    session.report(wrong)
+    return ExitCode.ERROR if wrong else ExitCode.DONE
 
 
 @app.command()

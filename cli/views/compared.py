@@ -10,7 +10,7 @@ from pico.model.record import as_json
 from pico.model.trace.run import Run
 
 from .diff import lines
-from .measured import value
+from .measured import numbers, value
 from .runs import deed, moment, shown
 from .style import columns, count, paint, seconds, shorten
 
@@ -94,5 +94,8 @@ def _fact(value: Any) -> str:
 
 def data(found: Comparison) -> dict[str, Any]:
     """Return schema `pico.run-comparison/v1`: `a`, `b` (documents), `same`, `changes`, `operations`, `differing`,
-    `measured`."""
-    return {"schema": "pico.run-comparison/v1", **as_json(found)}
+    `measured`, each number with its own unit, too (`numbers`)."""
+    said: dict[str, Any] = as_json(found)
+    for shown, one in zip(said["measured"], found.measured, strict=True):
+        shown["numbers"] = {"a": numbers(one.a), "b": numbers(one.b)}
+    return {"schema": "pico.run-comparison/v1", **said}

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pico.kernels.measured import in_order
+from pico.model.measurement import Measurement
 
 from .style import number, paint
 
@@ -21,6 +22,11 @@ def line(found: Mapping[str, Any]) -> str:
         parts.append(f"array {shape} {array['dtype']} {array['sha256'][:12]}")
     doubts = "; ".join(f"{what} ({why})" for what, why in found.get("not_assured", {}).items())
     return ", ".join(part for part in parts if part) + (paint("yellow", f", not assured: {doubts}") if doubts else "")
+
+
+def numbers(found: Measurement) -> list[dict[str, Any]]:
+    """Return what was measured as JSON, each number with its own unit: `name`, `value`, `sigma`, `unit`."""
+    return [{"name": n, "value": v, "sigma": s, "unit": unit} for n, (v, s, unit) in found.numbers.items()]
 
 
 def value(found: Any, unit: str = "", sigma: Any = None) -> str:

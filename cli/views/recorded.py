@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pico.model.measurement import measurement_from_json
 from pico.model.record import as_json
 from pico.model.trace.run import TRIALS, GoalStood, Run
 from pico.runs.operations import operations
 
 from .diff import lines
-from .measured import line, ranged, solved, value
+from .measured import line, numbers, ranged, solved, value
 from .report import expectations
 from .runs import COLORS, deed, moment, shown
 from .style import columns, count, number, paint, place, seconds
@@ -170,6 +171,17 @@ def data(run: RecordedRun, commit: Commit | None) -> dict[str, Any]:
         for a in run.document.artifacts
     ]
     return found | {
-        "operations": as_json(operations(run.trace)), "measurements": as_json(run.measurements),
+        "operations": [_with_numbers(op) for op in operations(run.trace)], "measurements": as_json(run.measurements),
         "artifacts": artifacts, "diagnostics": as_json(run.diagnostics),
     }  # fmt: skip
+
+
+def _with_numbers(op: OperationRun) -> dict[str, Any]:
+    """Return an operation as JSON; of what it measured each number by name with its own unit, too."""
+    said: dict[str, Any] = as_json(op)
+    if not isinstance(measured := op.data.get("measurement"), Mapping):
+        return said
+    try:
+        return said | {"numbers": numbers(measurement_from_json(measured))}
+    except ValueError:  # written by another program
+        return said

@@ -185,28 +185,17 @@ class Goals:
             came += signals
         return run.report, optimized(events)
 
-    def plot(self, found: Optimized, out: Path) -> None:
+    def plot(self, found: Optimized, goal: Goal, out: Path) -> None:
         """Write the plot of an optimization as PNG; raises PicoError where its points are gone, or it can't be."""
+        from pico.bench.picturing.searches import search_of
         from pico.content.arrays import load_array
         from pico.content.store import store_of
         from pico.drawing.picture import write_png
-        from pico.drawing.plots.search import search_plot
         from pico.model.measurement import ArrayRef
 
         reference = ArrayRef(**{**(found.points or {}), "shape": tuple((found.points or {})["shape"])})
         points = load_array(store_of(self.opened.folder.root), reference)
-        setup, units = self.opened.setup, dict[str, str]()
-        names = [c for c in found.columns if c != "time" and not c.endswith("_sigma")]
-        tunables = [n for n in names if n.partition(".")[0] in setup.lab.inventory and n not in found.tolerance]
-        for name in tunables:
-            kind = setup.type_of(name.partition(".")[0]).tunables.get(name.partition(".")[2])
-            units[name] = kind.unit if kind else ""
-        outputs = {n: (self._target(found, n)) for n in names if n not in units}
-        write_png(search_plot(f"{found.goal}: {found.algorithm}", found.columns, points, outputs, units), out)
-
-    def _target(self, found: Optimized, output: str) -> float | None:
-        goal = self.named.get(found.goal)
-        return None if output not in found.tolerance else (goal.reach or {}).get(output, 0.0) if goal else 0.0
+        write_png(search_of(self.opened.setup, found.goal, goal, vars(found), points).picture(), out)
 
 
 def as_problem(one: Sought) -> Problem:

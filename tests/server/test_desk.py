@@ -56,6 +56,16 @@ def test_who_may_not_change_the_lab_looks_at_its_main_branch(desk: Desked) -> No
     assert desired != {r["component"]: r["desired"] for r in desk.said(vera, "status")[0]["rows"]}
 
 
+def test_a_picture_that_lies_at_the_edge_is_seen_at_a_desk_and_by_who_only_looks(desk: Desked) -> None:
+    carl, nora = desk.served.person("carl", "operator"), desk.served.person("nora", "viewer")
+    run = next(d["run"] for d in desk.said(carl, "measure", "cam.image", "-y") if d["schema"] == "pico.measurement/v1")
+    (seen,) = desk.said(carl, "runs pictures", run, "--width", "160")
+    assert seen["schema"] == "pico.still/v1" and 0 < seen["width"] <= 160 and len(seen["png"]) > 100
+    desk.said(carl, "commit", "-m", "a picture", "--capture")
+    assert desk.said(nora, "runs pictures", run, "--width", "160", at="web/carl") == [seen]
+    assert desk.at(nora, "runs pictures", run, "--out", "here")[0] == 400
+
+
 def test_a_branch_and_a_tag_are_made_and_what_only_says_what_it_would_do_is_no_run(desk: Desked) -> None:
     anna = desk.served.person("anna", "operator")
     assert desk.said(anna, "git branch", "tilted", "e1")[0]["commit"] == desk.git("rev-parse", "tilted")

@@ -76,17 +76,19 @@ class Stills:
         return kernel
 
 
-def still(component: str, measurable: str, reading: Reading, rows: Mapping[str, str]) -> dict[str, Any]:
+def still(
+    component: str, measurable: str, reading: Reading, rows: Mapping[str, str], wide: int = WIDEST
+) -> dict[str, Any]:
     """Return schema `pico.still/v1`: the picture as `png` (base64, grey: black is the black level, white the brightest
     pixel), its `width` and `height`, how many pixels of the camera are one of it (`by`), the camera's `settings`, what
     is `saturated`; the `values` of kernels by name: `value`, `sigma`, `unit`, `unknown`; and `marks` in pixels of the
-    picture. Raises PicoError where nothing was seen."""
+    picture, which is `wide` pixels across at most. Raises PicoError where nothing was seen."""
     from pico.kernels.measured import computed, frame_of
     from pico.kernels.pipeline import parsed
 
     if reading.array is None or reading.array.ndim != 2:
         raise PicoError(error("picture", f"{component}.{measurable} gives no picture", address=component))
-    picture, by = _grey(reading.array, float(str(reading.settings.get("black_level", 0.0))))
+    picture, by = _grey(reading.array, float(str(reading.settings.get("black_level", 0.0))), wide)
     values, marks = {}, list[dict[str, Any]]()
     frame = frame_of(reading.array, reading.settings) if rows else None
     for name, row in rows.items():
@@ -105,12 +107,12 @@ def still(component: str, measurable: str, reading: Reading, rows: Mapping[str, 
     }  # fmt: skip
 
 
-def _grey(counts: NDArray[Any], black: float) -> tuple[NDArray[Any], int]:
+def _grey(counts: NDArray[Any], black: float, wide: int) -> tuple[NDArray[Any], int]:
     """Return a frame [count] as a small grey picture, and how many of its pixels across are one of that."""
     import cv2
     import numpy as np
 
-    by = -(-counts.shape[1] // WIDEST)
+    by = -(-counts.shape[1] // wide)
     size = (counts.shape[1] // by, counts.shape[0] // by)
     small = cv2.resize(counts.astype(np.float32), size, interpolation=cv2.INTER_AREA) - black
     return np.clip(255 * small / max(1.0, float(small.max())), 0, 255).astype(np.uint8), by

@@ -71,6 +71,7 @@ COMMANDS: Mapping[str, Command] = {
     "runs list": _looks("--all"),
     "runs show": _looks("--frames"),
     "runs compare": _looks(),
+    "runs pictures": _looks("--of=", "--width="),
     "runs plot": _looks("--x=", "--y=", "--recipe"),
     "show": _looks(),
     "status": _looks("--all"),
