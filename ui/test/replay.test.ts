@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { at, doneAt, phaseAt, reel, sceneAt, stepped, telling, translated, turned, type Frames } from "../src/replay/frames";
-import { filtered, late, measured, type OperationRun } from "../src/replay/recorded";
+import { filtered, kept, late, measured, paths, type OperationRun, type Search } from "../src/replay/recorded";
+import { roomy, told } from "../src/parts/plotting";
 import { FAR, Playing } from "../src/live/playing";
 import type { Frame } from "../src/live/frame";
 import { named } from "../src/stores/shown.svelte";
@@ -132,9 +133,43 @@ describe("runs", () => {
     expect(filtered(all, "e1", "hardware")).toEqual([]);
   });
   it("say what was measured, and how much later than planned", () => {
-    expect(measured({ component: "cam", measurable: "power", value: 1.23456789, unit: "mW", sigma: 0.0123 })).toBe("1.2346 ± 0.012 mW");
-    expect(measured({ component: "cam", measurable: "image", array: {} })).toBe("an image");
+    const of = { component: "cam", measurable: "power" };
+    expect(measured(of, [{ name: "", value: 1.23456789, sigma: 0.0123, unit: "mW" }])).toBe("1.235 ± 0.012 mW");
+    expect(measured(of, [{ name: "x", value: 3, sigma: null, unit: "um" }, { name: "round", value: 0.5, sigma: null, unit: "1" }])).toBe("x 3 um, round 0.5");
+    expect(measured({ ...of, unknown: "no light" })).toBe("unknown: no light");
+    expect(measured({ ...of, array: { sha256: "ab", shape: [2, 2] } })).toBe("an image");
     const operation = { seconds: 9.3, planned: 8 } as OperationRun;
     expect([late(operation), late({ ...operation, seconds: 8.01 }), late({ ...operation, planned: null })]).toEqual(["+1.3 s", "", ""]);
+  });
+});
+
+describe("what a run kept", () => {
+  const array = (sha256: string) => ({ sha256, shape: [2, 2] });
+  it("is found in what was measured, and in each goal that was sought", () => {
+    const operations = [
+      { data: { measurement: { component: "cam", measurable: "image", array: array("a") } } }, { data: {} },
+      { data: { stages: [{ points: array("b") }, {}], points: array("c") } },
+    ] as unknown as OperationRun[];
+    expect(kept(operations).map((one) => one.sha256)).toEqual(["a", "b", "c"]);
+  });
+  it("has the ways of tunables by unit, four in a plot, and gaps where nothing was", () => {
+    const tunables = [..."abcde"].map((name) => ({ name, unit: "mm", range: [0, 1] })).concat({ name: "t", unit: "deg", range: [0, 1] });
+    const found = paths({ tunables, rows: [{ values: { a: 1, t: 2 } }, { values: { a: 2 } }] } as unknown as Search);
+    expect(found.map((one) => [one.name, one.unit, one.series.length])).toEqual([["tunables", "mm", 4], ["e", "mm", 1], ["t", "deg", 1]]);
+    expect(found[0]!.series[0]!.values).toEqual([1, 2]);
+    expect(found[2]!.series[0]!.values).toEqual([2, null]);
+  });
+});
+
+describe("a plot", () => {
+  it("has room for bars and for what is to be reached", () => {
+    const [low, high] = roomy([{ name: "x", values: [1, null, 3], sigmas: [2, null, 0.5] }], [5]);
+    expect(low).toBeLessThan(-1);
+    expect(high).toBeGreaterThan(5);
+    expect(roomy([{ name: "x", values: [] }])).toEqual([0, 1]);
+    expect(roomy([{ name: "x", values: [4] }])).toEqual([3.6, 4.4]);
+  });
+  it("is told in words with the last number that there is", () => {
+    expect(told([1, 2], [{ name: "x", values: [1.23456, null], sigmas: [0.02, null] }])).toBe("2 points; x last 1.2346 ± 0.02");
   });
 });
