@@ -96,6 +96,6 @@ def data(found: Comparison) -> dict[str, Any]:
     """Return schema `pico.run-comparison/v1`: `a`, `b` (documents), `same`, `changes`, `operations`, `differing`,
     `measured`, each number with its own unit, too (`numbers`)."""
     said: dict[str, Any] = as_json(found)
-    for shown, one in zip(said["measured"], found.measured, strict=True):
-        shown["numbers"] = {"a": numbers(one.a), "b": numbers(one.b)}
+    for told, one in zip(said["measured"], found.measured, strict=True):
+        told["numbers"] = {"a": numbers(one.a), "b": numbers(one.b)}
     return {"schema": "pico.run-comparison/v1", **said}

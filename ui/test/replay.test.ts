@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { at, doneAt, phaseAt, reel, sceneAt, stepped, telling, translated, turned, type Frames } from "../src/replay/frames";
 import { filtered, kept, late, measured, paths, type OperationRun, type Search } from "../src/replay/recorded";
-import { roomy, told } from "../src/parts/plotting";
+import { decades, roomy, told } from "../src/parts/plotting";
 import { FAR, Playing } from "../src/live/playing";
 import type { Frame } from "../src/live/frame";
 import { named } from "../src/stores/shown.svelte";
@@ -168,6 +168,13 @@ describe("a plot", () => {
     expect(high).toBeGreaterThan(5);
     expect(roomy([{ name: "x", values: [] }])).toEqual([0, 1]);
     expect(roomy([{ name: "x", values: [4] }])).toEqual([3.6, 4.4]);
+  });
+  it("goes by powers of ten where numbers range over several, and all are positive", () => {
+    const of = (...values: (number | null)[]) => [{ name: "x", values }];
+    expect(decades(of(124, null, 0.02))).toEqual([0.01, 1000]);
+    expect(decades(of(20), [0, 0.5])).toEqual([0.1, 100]);
+    expect(decades(of(2, 4))).toBeNull();
+    expect(decades(of(124, 0))).toBeNull();
   });
   it("is told in words with the last number that there is", () => {
     expect(told([1, 2], [{ name: "x", values: [1.23456, null], sigmas: [0.02, null] }])).toBe("2 points; x last 1.2346 ± 0.02");

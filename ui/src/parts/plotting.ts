@@ -18,6 +18,15 @@ export function roomy(series: Series[], also: number[] = []): [number, number] {
   return [low - room, high + room];
 }
 
+/** What an axis shows by powers of ten: all positive numbers, and `also`; null where they are not worth that, or not all positive. */
+export function decades(series: Series[], also: number[] = []): [number, number] | null {
+  const values = series.flatMap((one) => one.values).filter((value) => value !== null);
+  const all = [...values, ...also.filter((value) => value > 0)];
+  if (!values.length || values.some((value) => value <= 0)) return null;
+  const low = all.reduce((a, b) => Math.min(a, b)), high = all.reduce((a, b) => Math.max(a, b));
+  return high / low < 30 ? null : [10 ** Math.floor(Math.log10(low)), 10 ** Math.ceil(Math.log10(high))];
+}
+
 /** Points in the order of what lies across, as uPlot wants them. */
 export function sorted<T extends { x: number }>(points: T[]): T[] {
   return [...points].sort((a, b) => a.x - b.x);
