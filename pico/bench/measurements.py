@@ -14,9 +14,6 @@ from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
 
 if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from pico.drawing.picture import Image
     from pico.model.goal import Goal
     from pico.model.measurement import Measurement
     from pico.model.trace.expectation import GoalRead, Verified
@@ -52,6 +49,7 @@ class Measurements:
     def picture(self, measurement: Measurement, out: Path) -> None:
         """Write the picture of a measurement as PNG, its brightest pixel white, its black level black; raises PicoError
         where there is none, or it can't be written."""
+        from pico.bench.picturing.kept import as_picture
         from pico.content.arrays import load_array
         from pico.content.store import store_of
         from pico.diagnostics import PicoError, error
@@ -174,13 +172,3 @@ class Measurements:
         seen = self.opened.observe()
         found = check_expectations(self.opened.setup, seen, plan.target.expect or (), self._measurables())
         return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)
-
-
-def as_picture(array: NDArray[Any], measurement: Measurement) -> Image:
-    """Return what a camera saw (height, width) [count] as a picture (height, width, 3), its brightest pixel white, its
-    black level black."""
-    import numpy as np
-
-    seen = array.astype(np.float64) - float(measurement.settings.get("black_level", 0.0))
-    grey = np.clip(255 * seen / max(1.0, float(seen.max())), 0, 255).astype(np.uint8)
-    return np.repeat(grey[:, :, None], 3, axis=2)

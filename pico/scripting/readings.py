@@ -82,7 +82,7 @@ class Reading:
         """Return its picture, brightest white, black level black; None where it is none."""
         if self.measurement.array is None or len(self.measurement.array.shape) != 2:
             return None
-        from pico.bench.measurements import as_picture
+        from pico.bench.picturing.kept import as_picture
         from pico.drawing.picture import png
 
         image = as_picture(self.array, self.measurement)

@@ -166,8 +166,6 @@ class Still:
         return {**still(m.component, m.measurable, reading, self._rows(), wide), "at": m.at}
 
     def picture(self) -> Image:
-        from pico.bench.measurements import as_picture
-
         return as_picture(self.array, self.measurement)
 
     def _rows(self) -> dict[str, str]:
@@ -220,3 +218,13 @@ class Curve:
         if isinstance(first, int | float) and isinstance(step, int | float):
             return float(first), float(step), "nm"
         return 0.0, 1.0, ""
+
+
+def as_picture(array: NDArray[Any], measurement: Measurement) -> Image:
+    """Return what a camera saw (height, width) [count] as a picture (height, width, 3), its brightest pixel white, its
+    black level black."""
+    import numpy as np
+
+    seen = array.astype(np.float64) - float(measurement.settings.get("black_level", 0.0))
+    grey = np.clip(255 * seen / max(1.0, float(seen.max())), 0, 255).astype(np.uint8)
+    return np.repeat(grey[:, :, None], 3, axis=2)

@@ -47,9 +47,12 @@ const KEPT: Record<string, (rest: string[]) => string | null> = {
     ? `from pico.recipes.recipes import Recipes\n\nrecipes = Recipes(bench)\nmade = recipes.read(${quoted(name)})\nrecipes.run(made, recipes.begin(made, recipes.arguments(made, {${pairs.map((one) => texts(one)).join(", ")}})))`
     : null),
   runs: ([what, a, b]) => ({
+    list: "for run, commit in bench.history.runs():\n    print(run.id, run.goal, run.outcome)",
     show: `run, commit = bench.history.recorded_run(${JSON.stringify(a ?? "")})\nprint(run)`,
     compare: `print(bench.history.compare_runs(${JSON.stringify(a ?? "")}, ${JSON.stringify(b ?? "")}))`,
-  } as Record<string, string>)[what ?? ""] ?? "for run, commit in bench.history.runs():\n    print(run.id, run.goal, run.outcome)",
+    plot: `from pico.bench.picturing.plots import points_of\n\nrun, commit = bench.history.recorded_run(${JSON.stringify(a ?? "")})\nprint(points_of(bench.setup, run))`,
+    pictures: `from pico.bench.picturing.kept import drawn, kept\n\nrun, commit = bench.history.recorded_run(${JSON.stringify(a ?? "")})\nfor one in kept(run):\n    picture = drawn(bench.history.folder, one).picture()  # (height, width, 3)`,
+  } as Record<string, string>)[what ?? "list"] ?? null,
 };
 
 /** The same in Python, where a line of it does the same. */
