@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from dataclasses import replace
 from pathlib import Path
@@ -92,15 +91,16 @@ def run(
         return int(ahead.exit_code)
     if until:
         recipes.require_step(found, until, ahead)
+    beside = detach and bench.far is not None
     if detach:
-        recipes.require_alone(found)
-    alone = _alone(session, recipes, found, arguments, unattended)
+        recipes.require_alone(found, asked=beside)
+    alone = _alone(session, recipes, found, arguments, unattended, beside)
     if not _agreed(session, found, ahead, auto_approve, seed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
     if seed is not None:
         bench.sim.reset(seed)
-    if detach and bench.far is not None:
+    if beside:
         return _detach(session, recipes, found, given or [], alone)
     if detach:
         return _leave(session, recipes, found, arguments, alone)
@@ -149,6 +149,8 @@ def _go_on(
     unattended: bool, junit: Path | None,
 ) -> int:  # fmt: skip
     """Go on with what was cut short; where others changed the bench since, only once a person said so."""
+    from ..runs.asking import at_terminal
+
     log = recipes.unended(Path(named).stem if named else None)
     found = recipes.taken_up(log)
     if until:
@@ -161,7 +163,7 @@ def _go_on(
     alone = _alone(session, recipes, found, log.about.arguments, unattended)
     if changed := recipes.changed_since(log):
         session.tell([replace(d, severity="warning") for d in changed])
-        if auto_approve or not _attended(session):
+        if auto_approve or not at_terminal(session):
             text = f"the bench is not as {found.name} left it when it was cut short"
             hint = "`pico undo` takes back the last run; at a terminal, without -y, `pico run --resume` asks"
             raise PicoError(
@@ -170,19 +172,19 @@ def _go_on(
     return _carry_out(session, recipes, found, log, until, auto_approve, alone, junit)
 
 
-def _alone(session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], said: bool) -> bool:
-    """Return whether nobody is there: that was said, or no terminal is, and the recipe states something of that. Raises
-    PicoError where it must not begin so now."""
-    alone = said or (recipe.unattended is not None and not _attended(session))
-    if not _attended(session):
-        recipes.require_alone(recipe)
+def _alone(
+    session: Session, recipes: Recipes, recipe: Recipe, arguments: Mapping[str, Any], said: bool, beside: bool = False
+) -> bool:  # fmt: skip
+    """Return whether nobody is there: that was said, or no terminal is, and the recipe states something of that;
+    `beside`: it is run where questions wait for an answer. Raises PicoError where it must not begin so now."""
+    from ..runs.asking import asker, at_terminal
+
+    alone = said or (recipe.unattended is not None and not at_terminal(session))
+    if not at_terminal(session):
+        recipes.require_alone(recipe, asked=beside or asker(session) is not None)
     if alone:
         session.tell(recipes.require_unattended(recipe, arguments))
     return alone
-
-
-def _attended(session: Session) -> bool:
-    return sys.stdin is not None and sys.stdin.isatty() and not session.json
 
 
 def _agreed(session: Session, recipe: Recipe, ahead: Foreseen, auto_approve: bool, seed: int | None) -> bool:
@@ -200,12 +202,13 @@ def _carry_out(
     from pico.recipes.rehearsing import Rehearsed
     from pico.recipes.running import Watching
 
+    from ..runs.asking import Terminal, asker, attended
     from ..views.rehearsed import junit as in_junit
 
     if not agreed and not session.confirm(f"Go on with {recipe.name}, run {log.about.id}?", agreed):
         session.say("Nothing was done.")
         return int(ExitCode.ERROR)
-    attended = _attended(session) and not alone
+    asking = None if alone else asker(session)
     lines = progress.Lines(recipes.bench.setup)
 
     def write(found: Any) -> None:
@@ -221,11 +224,12 @@ def _carry_out(
         ),
         until=until,
     )
-    how: dict[str, Any] = {"attended": attended, "unattended": alone, "say": say}
-    if attended:
+    how: dict[str, Any] = {"attended": not alone and attended(session), "unattended": alone, "say": say}
+    if asking is not None:
+        how["ask"] = asking.ask
+    if isinstance(asking, Terminal):
         from ..runs.steering import steer
 
-        how["ask"] = lambda question: session.confirm(question, False)
         how["steer"] = lambda jog: steer(session, recipes.bench, jog, None, None)
     began = time.monotonic()
     outcome = recipes.run(recipe, log, watching, **how)

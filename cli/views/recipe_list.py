@@ -23,8 +23,8 @@ def text(recipes: Sequence[Listed], cut_short: Sequence[About]) -> str:
 
 def data(recipes: Sequence[Listed], cut_short: Sequence[About]) -> dict[str, Any]:
     """Return schema `pico.recipes/v1`: `recipes` with `name`, `title`, `parameters`, `wrong`, `inputs` (each parameter
-    by `name`, `kind`, `unit`, `default`, `low`, `high`, `choices`, `description`) and the steps that wait for a person
-    (`asks`); `cut_short` runs."""
+    by `name`, `kind`, `unit`, `default`, `low`, `high`, `choices`, `description`) the steps that wait for a person
+    (`asks`), and those of them that want the keys of a terminal (`steered`); `cut_short` runs."""
     return {
         "schema": "pico.recipes/v1", "recipes": [{**vars(r), "inputs": [_input(p) for p in r.inputs]} for r in recipes],
         "cut_short": [{"run": a.id, "recipe": a.name, "at": a.at} for a in cut_short],

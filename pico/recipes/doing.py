@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.model.trace.question import Answer, Question
 from pico.scripting.outcome import require_done, require_possible
 
 if TYPE_CHECKING:
@@ -24,15 +25,20 @@ def _deaf(_: object) -> None:
     return None
 
 
-def nobody(question: str) -> bool:
+def nobody(question: Question) -> Answer:
     """Answer a question where nobody is there; raises PicoError."""
+    raise alone(question.text)
+
+
+def alone(what: str) -> PicoError:
+    """Return that nobody is there to do something."""
     hint = "run it at a terminal; or give the step `unattended: skip`"
-    raise PicoError(error("unattended", f"nobody is there to be asked: {question}", hint=hint))
+    return PicoError(error("unattended", f"nobody is there to be asked: {what}", hint=hint))
 
 
 def nobody_steers(jog: Teleoperation) -> None:
     """Refuse to steer where nobody is there; raises PicoError."""
-    nobody(f"steer {jog.operation.component}")
+    raise alone(f"steer {jog.operation.component}")
 
 
 @dataclass
@@ -56,7 +62,7 @@ class Doing:
     attended: bool = False
     head: str | None = None
     begin: Callable[[str], None] = _deaf
-    ask: Callable[[str], bool] = nobody
+    ask: Callable[[Question], Answer] = nobody
     steer: Callable[[Teleoperation], object] = nobody_steers
     show: Callable[[Event], None] = _deaf
     say: Callable[[str], None] = _deaf

@@ -1,21 +1,28 @@
-"""Parameters of recipes: as a recipe declares them, and as who runs it gives them (`-p tilt=30`)."""
+"""Parameters of recipes: as a recipe declares them, and as who runs it gives them (`-p tilt=30`); so are answers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, get_args, get_type_hints
+from typing import TYPE_CHECKING, Any, Literal, cast, get_args, get_type_hints
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.expressions import ExpressionError
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import List, Map, Node, Scalar, parse
 from pico.model.quantities import QuantityError, require_unit
+from pico.model.trace.question import Question, wanted
 from pico.recipes.reader import NOTHING, Reader, scalar_texts
 from pico.recipes.recipe import Parameter
 from pico.recipes.scope import Scope
 
+if TYPE_CHECKING:
+    from pico.model.setup import Setup
+
 KEYS = ("kind", "unit", "default", "range", "choices", "description")
 KINDS: tuple[Any, ...] = get_args(get_type_hints(Parameter)["kind"])
+_YES, _NO = ("yes", "y", "true"), ("no", "n", "false")
+_NO_BENCH = cast("Setup", None)
+"""What is written out speaks of no bench, so that none is needed to read it."""
 _EXAMPLE = "`parameters: {tilt: {unit: deg, default: 30, range: [0, 45]}}`"
 
 
@@ -29,11 +36,12 @@ def read_parameters(reader: Reader, node: Node | None) -> dict[str, Parameter]:
     found, scope = {}, Scope({}, {})
     for word, (at, body) in node.entries.items():
         if reader.new_name(at, word, scope):
-            found[word] = _declared(reader, word, body)
+            found[word] = read_parameter(reader, word, body)
     return found
 
 
-def _declared(reader: Reader, name: str, node: Node) -> Parameter:
+def read_parameter(reader: Reader, name: str, node: Node) -> Parameter:
+    """Return a parameter as a recipe declares it; what is wrong with it is said."""
     where = reader.at(node)
     if not isinstance(node, Map):
         if isinstance(node, Scalar) and node.value is None:
@@ -114,7 +122,7 @@ def unfit(parameter: Parameter, value: Any) -> str:
     return ""
 
 
-def given_values(parameters: Mapping[str, Parameter], words: Mapping[str, str], reader: Reader) -> dict[str, Any]:
+def given_values(parameters: Mapping[str, Parameter], words: Mapping[str, str]) -> dict[str, Any]:
     """Return the values of all parameters, of those that `words` name as a person writes them: `30`, `30 deg`,
     `[0, 15, 30]`, `{from: 0, to: 45, step: 5}`. Raises PicoError with all that is wrong."""
     found: list[Diagnostic] = []
@@ -125,7 +133,10 @@ def given_values(parameters: Mapping[str, Parameter], words: Mapping[str, str], 
             found.append(error("unknown-parameter", f"the recipe has no parameter `{name[:40]}`", hint=hint))
     for name, parameter in parameters.items():
         if name in words:
-            values[name] = _given(parameter, words[name], reader, found)
+            try:
+                values[name] = given_value(parameter, words[name], f"-p {name}")
+            except PicoError as exc:
+                found.extend(exc.diagnostics)
         elif parameter.default is None:
             unit = f", in {parameter.unit}" if parameter.unit else ""
             found.append(error("missing-parameter", f"the recipe is not told {name}{unit}", hint=f"`-p {name}=...`"))
@@ -136,19 +147,41 @@ def given_values(parameters: Mapping[str, Parameter], words: Mapping[str, str], 
     return values
 
 
-def _given(parameter: Parameter, word: str, reader: Reader, found: list[Diagnostic]) -> Any:
-    source = Source(f"-p {parameter.name}", word)
-    documents, wrong = parse(source)
+def given_value(parameter: Parameter, word: str, source: str = "the answer") -> Any:
+    """Return the value of one parameter as a person writes it, in what is called `source`; raises PicoError."""
+    written = Source(source, word)
+    documents, wrong = parse(written)
     if wrong or len(documents) != 1:
         text = f"`{word[:40]}` can't be read as a value of {parameter.name}"
-        found.append(error("parameter", text, hint="`30`, `30 deg`, `[0, 15, 30]`"))
-        return None
-    own = Reader(documents[0], reader.setup, [])
+        raise PicoError(error("parameter", text, hint="`30`, `30 deg`, `[0, 15, 30]`"))
+    own = Reader(documents[0], _NO_BENCH, [])
     node = documents[0].root
     if parameter.kind in ("numbers", "texts") and isinstance(node, Scalar):
         node = List(node.start, True, node.end, [node])
     value, _ = _value(own, parameter.name, node, parameter.unit, parameter.kind)
-    found.extend(own.found)
-    if not own.found and (unfitting := unfit(parameter, value)):
-        found.append(error("range", unfitting))
+    if own.found:
+        raise PicoError(own.found)
+    if unfitting := unfit(parameter, value):
+        raise PicoError(error("range", unfitting))
     return value
+
+
+def answered(question: Question, word: str) -> Any:
+    """Return the value that an answer means as a person writes it (`yes`, `30`, `30 deg`); raises PicoError with what
+    is wrong with it."""
+    word = word.strip()
+    if not word and question.default is not None:
+        return question.default
+    if question.kind in ("confirm", "bool"):
+        if word.lower() not in (*_YES, *_NO):
+            raise PicoError(error("answer", f"`{word[:40]}` answers neither yes nor no", hint="`yes` or `no`"))
+        return word.lower() in _YES
+    if not word:
+        raise PicoError(error("answer", f"nothing is said of {question.name}", hint=wanted(question)))
+    kind: Literal["number", "text"] = "number" if question.kind == "number" else "text"
+    about = Parameter(question.name, kind, question.unit, None, question.low, question.high, question.choices)
+    if kind == "number":
+        return given_value(about, word)
+    if wrong := unfit(about, word):
+        raise PicoError(error("range", wrong, hint=wanted(question)))
+    return word

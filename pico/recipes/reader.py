@@ -399,7 +399,12 @@ class Reader:
         words = term.words()
         for word in sorted(words):
             component, _, number = word.partition(".")
-            if word in scope.own or word in scope.measured or number not in numbers_of(self.setup, component):
+            if (
+                not number
+                or word in scope.own
+                or word in scope.measured
+                or number not in numbers_of(self.setup, component)
+            ):
                 continue
             hint = f"put `measure: {component}.{numbers_of(self.setup, component)[number]}` before it"
             return self.wrong(node, "unmeasured", f"nothing measures {word} before this step", hint)

@@ -11,11 +11,10 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.manifest.text.source import Source
-from pico.manifest.text.tree import Document, Map
 from pico.recipes.doing import Doing
 from pico.recipes.log import About, Log, logs
 from pico.recipes.parameters import given_values
-from pico.recipes.reader import Able, Reader
+from pico.recipes.reader import Able
 from pico.recipes.reading import read_recipe
 from pico.recipes.recipe import Parameter, Recipe, paths_of
 from pico.recipes.running import Outcome, Watching, run_recipe
@@ -35,7 +34,7 @@ MOST_LISTED = 20
 @dataclass(frozen=True)
 class Listed:
     """A recipe of a lab in a list: `parameters` in words, and as they are (`inputs`); `wrong` where it has mistakes;
-    `asks`: the steps that wait for a person."""
+    `asks`: the steps that wait for a person, `steered` those of them that want the keys of a terminal."""
 
     name: str
     title: str
@@ -43,6 +42,7 @@ class Listed:
     wrong: bool
     inputs: tuple[Parameter, ...] = ()
     asks: tuple[str, ...] = ()
+    steered: tuple[str, ...] = ()
 
 
 class Recipes:
@@ -98,16 +98,14 @@ class Recipes:
                 else ""
             )
             inputs = tuple(recipe.parameters.values()) if recipe else ()
-            asks = waiting(recipe) if recipe else ()
-            found.append(
-                Listed(name, recipe.title if recipe else "", parameters, bool(wrong) or recipe is None, inputs, asks)
-            )
+            asks, steered = (waiting(recipe), waiting(recipe, "keys")) if recipe else ((), ())
+            title = recipe.title if recipe else ""
+            found.append(Listed(name, title, parameters, bool(wrong) or recipe is None, inputs, asks, steered))
         return tuple(found)
 
     def arguments(self, recipe: Recipe, given: Mapping[str, str]) -> dict[str, Any]:
         """Return the values of all parameters, of those given as a person writes them; raises PicoError."""
-        nothing = Reader(Document(Source(recipe.path, ""), Map(0, True)), self.bench.setup, [])
-        return given_values(recipe.parameters, given, nothing)
+        return given_values(recipe.parameters, given)
 
     def ahead(self, recipe: Recipe, arguments: Mapping[str, Any], log: Log | None = None) -> Foreseen:
         """Return what is known of a recipe in advance, of one that was cut short what is left of it (`log`); nothing
@@ -145,9 +143,10 @@ class Recipes:
             )
             raise PicoError(error("no-step", f"{recipe.name} has no step `{path[:40]}`", hint=hint))
 
-    def require_alone(self, recipe: Recipe) -> None:
-        """Raise PicoError where nobody is there and a step waits for a person."""
-        if found := asking(recipe):
+    def require_alone(self, recipe: Recipe, *, asked: bool = False) -> None:
+        """Raise PicoError where nobody is at a terminal and a step waits for a person; `asked`: who is elsewhere
+        answers what is asked in words."""
+        if found := asking(recipe, "keys" if asked else ""):
             raise PicoError(found)
 
     def begin(self, recipe: Recipe, arguments: Mapping[str, Any]) -> Log:

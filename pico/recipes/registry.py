@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
-from typing import Any, Protocol, cast
+from typing import Any, Literal, Protocol, cast
 
 from pico import registered
 from pico.manifest.text.tree import Node
@@ -31,13 +31,14 @@ CONTROL: Mapping[str, str] = {
 @dataclass(frozen=True)
 class Kind:
     """What a file of FOLDER declares: `what` the step does, an `example` of it, and the keys that may stand beside it,
-    each with what it says. `asks`: it waits for a person. `within`: it is done in the open run that the steps before it
+    each with what it says. `asks`: it waits for a person, who answers in `words`, or has the `keys` of a terminal;
+    empty: for nobody. `within`: it is done in the open run that the steps before it
     began; any other ends that first, for it needs a run that is over, or nobody knows how long it takes."""
 
     what: str
     example: str
     keys: Mapping[str, str] = ()  # type: ignore[assignment]
-    asks: bool = False
+    asks: Literal["", "words", "keys"] = ""
     within: bool = False
 
 

@@ -135,23 +135,27 @@ def _asking(reader: Reader, steps: Sequence[Step]) -> None:
         reader.found.append(error("unattended", text, hint=hint, source=step.source))
 
 
-def asking(recipe: Recipe) -> list[Diagnostic]:
-    """Return an error for each step of a recipe that can't be done where nobody is there."""
+def asking(recipe: Recipe, by: str = "") -> list[Diagnostic]:
+    """Return an error for each step of a recipe that can't be done where nobody is there; see `waiting`."""
     hint = "run it at a terminal; or `unattended: skip` beside a prompt that may be left out"
     return [
         error("unattended", f"`{step.title}` waits for a person, and nobody is there", hint=hint, source=step.source)
-        for step in _waiting((*recipe.steps, *recipe.finally_))
+        for step in _waiting((*recipe.steps, *recipe.finally_), by)
     ]
 
 
-def waiting(recipe: Recipe) -> tuple[str, ...]:
-    """Return the steps of a recipe that wait for a person, as they are written."""
-    return tuple(step.title for step in _waiting((*recipe.steps, *recipe.finally_)))
+def waiting(recipe: Recipe, by: str = "") -> tuple[str, ...]:
+    """Return the steps of a recipe that wait for a person, as they are written; `by`: who answers in `words`, or has
+    the `keys` of a terminal, empty for both."""
+    return tuple(step.title for step in _waiting((*recipe.steps, *recipe.finally_), by))
 
 
-def _waiting(steps: Sequence[Step]) -> Iterator[Act]:
+def _waiting(steps: Sequence[Step], by: str = "") -> Iterator[Act]:
     """Yield the steps that wait for a person whoever is there."""
-    return (s for s in _all(steps) if step_file(s.kind).KIND.asks and s.given.get("unattended") != "skip")
+    for step in _all(steps):
+        asks = step_file(step.kind).KIND.asks
+        if asks and by in ("", asks) and step.given.get("unattended") != "skip":
+            yield step
 
 
 def _all(steps: Sequence[Step]) -> Iterator[Act]:

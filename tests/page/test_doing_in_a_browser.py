@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -28,16 +29,29 @@ apiVersion: pico/v1
 kind: Recipe
 metadata: {name: asking}
 steps:
-  - prompt: Put the sample in.
+  - {prompt: Is the cover on?, unattended: skip}
+  - {prompt: Read the meter., unit: mW, range: [0, 5], as: read}
+  - {prompt: Which sample?, choices: [glass, gold], as: which}
+returns: {read: read, which: which}
 """
 
 
 def test_measuring_a_goal_and_a_recipe(served: Served) -> None:
-    for name, text in (("turning", TURNING), ("asking", ASKING)):
-        (served.lab / "recipes" / f"{name}.yaml").write_text(text)
+    (served.lab / "recipes" / "turning.yaml").write_text(TURNING)
     served.said("apply", "e1", "--yes")
+    driven("doing.mjs", served)
+
+
+def test_what_a_recipe_asks_is_answered_in_the_page(served: Served) -> None:
+    (served.lab / "recipes" / "asking.yaml").write_text(ASKING)
+    made = json.loads(served.said("--json", "token", "invite", "vera", "viewer@shel"))["made"]
+    driven("asking.mjs", served, made["secret"])
+
+
+def driven(script: str, served: Served, *words: str) -> None:
+    """Have a script drive the page to its end."""
     pictures: list[str | Path] = [os.environ["PICTURES"]] if "PICTURES" in os.environ else []
-    done = begun("doing.mjs", served.address, *map(str, pictures))
+    done = begun(script, served.address, *words, *map(str, pictures))
     said, wrong = done.communicate(timeout=400)
     assert done.returncode == 0, said + wrong
     assert "All was done." in said

@@ -220,6 +220,8 @@ def test_what_a_person_steers_needs_a_person_and_is_recorded_as_of_the_recipe(la
     with Bench.open(lab) as bench:
         recipes, before = Recipes(bench), bench.measurements.read("p1", "angle")["angle"]["value"]
         recipe = recipes.read(str(lab.parent / "scan.yaml"))
+        with pytest.raises(PicoError, match="waits for a person"):
+            recipes.require_alone(recipe, asked=True)  # nobody answers with keys
         log = recipes.begin(recipe, recipes.arguments(recipe, {}))
         found = recipes.run(recipe, log, attended=True, steer=steer)
         assert found.outcome == "done", found.diagnostics

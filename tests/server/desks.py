@@ -1,12 +1,14 @@
-"""A coordinator with desks, the edge of a bench, and its lab in the coordinator's repository."""
+"""A coordinator with desks, the edge of a bench, its lab in the coordinator's repository, and who answers recipes."""
 
 from __future__ import annotations
 
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,16 @@ from edges import Connected, connected
 from pico.server.desk.desks import Desking
 from pico.server.git.hosting import repository
 
+ASKING = """\
+apiVersion: pico/v1
+kind: Recipe
+metadata: {name: asking}
+steps:
+  - {prompt: Is the cover on?, unattended: skip}
+  - {prompt: Read the meter., unit: mW, range: [0, 5], as: read}
+  - {prompt: Which sample?, choices: [glass, gold], as: which, retries: 1}
+returns: {read: read, which: which}
+"""
 WARM = (sys.executable, "-P", "-m", "pico_cli.warm")
 
 
@@ -64,3 +76,42 @@ def desked(folder: Path, root: Path) -> Iterator[Desked]:
         found = Desked(serving, edge, root)
         pushed(root, found.bare)
         yield found
+
+
+def placed(desk: Desked, token: str, who: str) -> None:
+    """Put the recipe onto somebody's desk."""
+    assert desk.said(token, "status")
+    (desk.served.books.folder / "desks" / "shel" / "of" / who / "recipes" / "asking.yaml").write_text(ASKING)
+
+
+def asked(desk: Desked, token: str, number: str, path: str) -> tuple[str, dict[str, Any]]:
+    """Return the run that asks the question of an id at a step, and the question, once it does."""
+    until = time.monotonic() + 60
+    while True:
+        for run in desk.served.ask("GET", "/api/labs/shel/desk/runs", token)[1]["runs"]:
+            with suppress(TypeError):
+                if (run["question"]["id"], run["question"]["path"]) == (number, path):
+                    return run["id"], run["question"]
+        assert time.monotonic() < until
+        time.sleep(0.02)
+
+
+def say(desk: Desked, token: str, run: str, number: str, word: str) -> tuple[int, Any]:
+    """Answer a question; return the status, and the value or what is wrong."""
+    asks = {"question": number, "answer": word}
+    status, told = desk.served.ask("POST", f"/api/labs/shel/desk/runs/{run}/answers", token, asks)
+    return status, told["value"] if status == 200 else told["error"][0]["summary"]
+
+
+def followed(desk: Desked, token: str, *words: str) -> Callable[[], list[Any]]:
+    """Run a recipe as somebody who follows it; return what returns all that it said once it has ended."""
+    said: list[Any] = []
+    following = threading.Thread(target=lambda: said.extend(desk.at(token, "run", *words, "-y")[1]))
+    following.start()
+
+    def ended() -> list[Any]:
+        following.join(60)
+        assert not following.is_alive()
+        return said
+
+    return ended

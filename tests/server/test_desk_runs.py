@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 from commanding import Pico
 from coordinators import served
-from desks import WARM, Desked, desked
+from desks import WARM, Desked, asked, desked, followed, placed, say
 
 from pico.backends.sim.session import WorldSession
 from pico.diagnostics import PicoError
@@ -194,6 +194,50 @@ def test_a_run_ends_safely_once_the_token_that_began_it_is_revoked(
     assert not [one for one in people.tokens("anna") if one["kind"] == "desk"]
     assert desk.served.ask("GET", f"/api/labs/shel/desk/runs/{run}", anna)[0] == 401
     assert desk.at(anna, "status")[0] == 401
+
+
+def test_what_a_recipe_asks_is_answered_once_by_who_began_it_and_a_wrong_answer_leaves_it(desk: Desked) -> None:
+    anna, ben, vera, root = (
+        desk.served.person(name, role)
+        for name, role in (("anna", "operator"), ("ben", "operator"), ("vera", "viewer"), ("root", "admin"))
+    )
+    placed(desk, anna, "anna")
+    run = desk.at(anna, "run", "asking", "-y", detach=True)[1][0]["run"]
+    found, question = asked(desk, vera, "q1", "2")  # nobody follows it: what may be left out is not asked
+    assert found == run and (question["schema"], question["text"]) == ("pico.question/v1", "Read the meter.")
+    assert [question[key] for key in ("kind", "unit", "low", "high")] == ["number", "mW", 0, 5]
+    assert say(desk, vera, run, "q1", "2")[0] == 403
+    assert say(desk, ben, run, "q1", "2") == (403, f"{run} is a run of anna")
+    assert say(desk, anna, run, "q1", "6") == (400, "read is out of range: 6 mW, and it may be 0 to 5 mW")
+    assert say(desk, anna, run, "q2", "2") == (409, f"{run} does not ask q2")
+    assert asked(desk, anna, "q1", "2") == (run, question)
+    assert say(desk, anna, run, "q1", "400 uW") == (200, pytest.approx(0.4))
+    assert say(desk, anna, run, "q1", "3") == (409, "anna has answered it")
+    asked(desk, anna, "q2", "3")
+    assert say(desk, root, run, "q2", "gold") == (200, "gold")
+    said = lines(desk, anna, run)
+    assert said[-1]["exit"] == 0 and said[-2]["returns"] == {"read": pytest.approx(0.4), "which": "gold"}
+    done = {one["path"]: one["result"] for one in said if one.get("event") == "done"}
+    assert done == {"1": {}, "2": {"": pytest.approx(0.4), "by": "anna"}, "3": {"": "gold", "by": "root"}}
+    assert say(desk, anna, run, "q3", "gold") == (409, f"{run} asks nothing now")
+
+
+def test_a_recipe_that_is_cancelled_asks_no_more_and_goes_on_there_and_a_no_ends_it(desk: Desked) -> None:
+    anna = desk.served.person("anna", "operator")
+    placed(desk, anna, "anna")
+    ended = followed(desk, anna, "asking")
+    run, question = asked(desk, anna, "q1", "1")
+    assert (question["kind"], question["wanted"], question["unattended"]) == ("confirm", "yes or no", "skip")
+    assert say(desk, anna, run, "q1", "perhaps")[0] == 400
+    assert desk.served.ask("DELETE", f"/api/labs/shel/desk/runs/{run}", anna)[0] == 200
+    said = ended()
+    assert said[-1]["exit"] == 130 and said[-2]["outcome"] == "interrupted"
+    assert run_of(desk, anna, run)["question"] is None and say(desk, anna, run, "q1", "yes")[0] == 409
+    ended = followed(desk, anna, "--resume")
+    run, again = asked(desk, anna, "q1", "1")
+    assert again == question and say(desk, anna, run, "q1", "no") == (200, False)
+    said = ended()
+    assert said[-1]["exit"] == 1 and said[-2]["diagnostics"][0]["summary"] == "anna said no: Is the cover on?"
 
 
 def test_a_line_that_never_ends_ends_its_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import type { BenchEvent, Said } from "../src/api/documents";
 import { sure, tried } from "../src/stores/goals";
-import { depth, given, rows, typedDefault, type Input } from "../src/stores/recipes";
+import { asks, depth, given, recipeOf, rows, typedDefault, type Input } from "../src/stores/recipes";
 import { lines, withSigma } from "../src/stores/seen";
 
 const input = (name: string, usual: unknown): Input => ({ name, kind: "number", unit: "", default: usual, low: null, high: null, choices: [], description: "" });
@@ -24,6 +24,22 @@ describe("a recipe", () => {
     expect(rows([], [...loop, step("step", "3")]).map(({ state }) => state)).toEqual(["done", "done", "going"]);
     expect(rows([], loop, true).map(({ state }) => state)).toEqual(["done", "done"]);
     expect([depth("3[2].1"), depth("3")]).toEqual([1, 0]);
+  });
+});
+
+describe("a question", () => {
+  const asked: Said = { schema: "pico.question/v1", id: "q1", path: "2", text: "Read the meter.", unit: "mW" };
+  it("is asked until anything is said after it", () => {
+    expect(asks([step("step", "2"), asked])?.text).toBe("Read the meter.");
+    expect(asks([asked, step("done", "2")])).toBe(null);
+    expect(asks([])).toBe(null);
+  });
+  it("leaves its value and who answered at its step", () => {
+    const said = [step("step", "1"), step("done", "1", { result: { by: "anna" } }), step("step", "2"), asked, step("done", "2", { result: { "": 0.4, by: "ben" } })];
+    expect(rows([], said).map(({ said: told }) => told)).toEqual(["by anna", "0.4 mW, by ben"]);
+  });
+  it("is of the recipe that the words run", () => {
+    expect([["run", "recipes/a.yaml", "-y"], ["run", "a"], ["run", "--resume"], ["apply", "a"]].map(recipeOf)).toEqual(["a", "a", "", ""]);
   });
 });
 

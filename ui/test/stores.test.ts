@@ -52,9 +52,14 @@ describe("marks", () => {
 
 describe("what needs attention", () => {
   const row = { component: "p2", tunable: "pose", edited: false, off: false, drifted: false, note: "" };
-  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here", busy: false };
+  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here", busy: false, asks: null };
   const status = (...rows: object[]) => ({ rows: rows.map((more) => ({ ...row, ...more })) }) as unknown as Status;
   it("is nothing where all is well", () => expect(needs({ ...calm, status: status({}) })).toEqual([]));
+  it("is a recipe that waits for an answer, before what is only otherwise", () => {
+    const found = needs({ ...calm, asks: "Put it in.", status: status({ off: true }) });
+    expect(found.map((one) => [one.tone, one.to?.tab])).toEqual([["warn", "do"], ["warn", "plan"]]);
+    expect(found[0]!.to?.query).toEqual({ act: "recipes" });
+  });
   it("leads to where it is mended, the worst first", () => {
     const found = needs({
       ...calm, edge: "away",

@@ -8,12 +8,12 @@ from typing import Any
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.manifest.text.tree import Node, Scalar
 from pico.model.plan import Plan
-from pico.recipes.doing import Doing, nobody
+from pico.recipes.doing import Doing, alone
 from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("a person steers a component by keys", "teleop: p2.pose", asks=True)
+KIND = Kind("a person steers a component by keys", "teleop: p2.pose", asks="keys")
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:
@@ -37,7 +37,7 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     from pico.bench.teleoperation import Teleoperation
 
     if not doing.attended:
-        nobody(f"steer {given['component']}")
+        raise alone(f"steer {given['component']}")
     planned = plan(doing, given).for_recipe(doing.recipe, doing.step)
     if planned.exit_code:
         raise PicoError([d for d in planned.diagnostics if d.severity == "error"], planned.exit_code)

@@ -26,6 +26,7 @@ from pico.server.desk.words import COMMANDS, checked, goes_on
 from pico.server.git.hosting import environment as git_environment
 from pico.server.git.hosting import repository
 from pico.server.store.books import Books
+from pico.server.store.ordered import write_event
 from pico.server.store.people import Issued
 
 LASTS, LASTING = 120.0, 86400.0
@@ -52,7 +53,7 @@ class Desking:
 @dataclass(frozen=True)
 class Wanted:
     """What somebody asks of a desk: `pico COMMAND WORDS...`, in a session of theirs, at the bench of a lab, on their
-    desk or at a revision."""
+    desk or at a revision. `attended`: they follow it, and answer what it asks."""
 
     lab: str
     command: str
@@ -60,6 +61,7 @@ class Wanted:
     session: str
     bench: str = ""
     at: str | None = None
+    attended: bool = False
 
 
 class Desks:
@@ -94,7 +96,7 @@ class Desks:
             place = await self._place(me, wanted, job)
             token = await self._token(me, job)
             folder = place if wanted.lab in self._desking.local else places.lab_in(place, wanted.lab)
-            environment = self._environment(me, session, token.secret, job, local=wanted.lab in self._desking.local)
+            environment = self._environment(me, session, token.secret, job, wanted)
             confined = () if wanted.lab in self._desking.local else (place, self._bare(wanted.lab), job.folder)
             if goes_on(wanted.command, words):
                 job.note()
@@ -113,7 +115,20 @@ class Desks:
                 raise self._hiding.error(exc) from exc
             raise
         self._keep(self._attend(job, ended, (me.token, token.id), place, (far.folder, before)))
+        if goes_on(wanted.command, words):
+            self._keep(self._announce(job.about))
         return job
+
+    async def _announce(self, about: About) -> None:
+        """Tell those who watch the bench that a command began there."""
+        await self._books.do(self._write_event, about)
+        self._books.announce()
+
+    def _write_event(self, about: About) -> None:
+        database = self._books.database
+        with database.writing() as connection:
+            data = {"run": about.id, "who": about.who, "command": about.command}
+            write_event(connection, database.now(connection), f"{about.lab}/{about.bench}", "desk", data)
 
     async def followed(self, job: Job, since: int = 0) -> AsyncIterator[bytes]:
         """Yield what a command says. One that only looks ends with who listens, and is forgotten with that. Raises
@@ -219,7 +234,7 @@ class Desks:
             self._tokens[key] = made, now + AGAIN
         return made
 
-    def _environment(self, me: Principal, session: str, token: str, job: Job, *, local: bool) -> dict[str, str]:
+    def _environment(self, me: Principal, session: str, token: str, job: Job, wanted: Wanted) -> dict[str, str]:
         """Return all that a command finds in its environment: of a person at this machine their own, else nobody's."""
         own = {
             "PICO_TOKEN": token, "PICO_SESSION": session,
@@ -227,7 +242,9 @@ class Desks:
             "TMPDIR": str(job.folder / "tmp"), "PAGER": "cat", "GIT_PAGER": "cat", "GIT_EDITOR": "false",
             "GIT_TERMINAL_PROMPT": "0", "OPENBLAS_NUM_THREADS": "1",
         }  # fmt: skip
-        if local:
+        if goes_on(wanted.command, wanted.words):
+            own |= {"PICO_QUESTIONS": str(job.folder), "PICO_ATTENDED": "yes" if wanted.attended else ""}
+        if wanted.lab in self._desking.local:
             return {**os.environ, **own}
         mail = f"{me.name}@pico.invalid"
         home = str(job.folder / "tmp")

@@ -20,6 +20,8 @@ export interface Known {
   edge: "here" | "away";
   /** Whether somebody has the bench, as every run does. */
   busy: boolean;
+  /** What a recipe asks. */
+  asks: string | null;
 }
 
 /** A value that is found by light, not told: `{"null_of": [...]}`. */
@@ -33,10 +35,11 @@ function listed(rows: StatusRow[]): string {
 }
 
 /** What needs attention, the worst first. */
-export function needs({ status, scene, runs, line, edge, busy }: Known): Need[] {
+export function needs({ status, scene, runs, line, edge, busy, asks }: Known): Need[] {
   const rows = status?.rows ?? [], found: Need[] = [];
   if (line === "lost") found.push({ tone: "bad", text: "The line to the coordinator is lost", mend: "it is tried again by itself", to: null });
   else if (edge === "away") found.push({ tone: "bad", text: "The bench's edge is not connected", mend: "start `pico edge` beside the table", to: null });
+  if (asks) found.push({ tone: "warn", text: `A recipe waits for an answer: ${asks}`, mend: "answer it", to: { tab: "do", query: { act: "recipes" } } });
   for (const one of scene?.components ?? []) {
     const to = { tab: "inspect" as const, query: { part: one.name } };
     if (one.state === "lost") found.push({ tone: "bad", text: `${one.name}: nobody sees it`, mend: "look where it is", to });

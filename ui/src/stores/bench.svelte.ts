@@ -35,6 +35,8 @@ class Bench {
   /** Whether it became this page's turn while it waited, and nobody has looked yet. */
   turn = $state(false);
   stopping = $state(false);
+  /** How many commands were begun at desks for this bench since it was opened. */
+  begun = $state(0);
   /** Who hears each frame; the twin does. */
   onframe: (frame: Frame) => void = () => undefined;
   #events = new Set<(event: LiveEvent) => void>();
@@ -50,6 +52,11 @@ class Bench {
   /** Whether this page has the bench; `you` in the lease is the person, who may have it in another page or terminal. */
   get mine(): boolean { return this.#ours(this.lease?.holder ?? null); }
   #ours(holder: Holder | null): boolean { return holder?.you === true && holder.session.endsWith(`/${MINE}`); }
+  /** Whether a command that this page began has it, for as long as that takes: its session goes on after a `~`. */
+  get runs(): boolean {
+    const holder = this.lease?.holder;
+    return holder?.you === true && holder.session.includes(`/${MINE}~`);
+  }
   get lab(): string { return this.name?.split("/")[0] ?? ""; }
   get at(): Record<string, string> {
     const [lab = "", bench = ""] = (this.name ?? "").split("/");
@@ -73,7 +80,12 @@ class Bench {
     });
     this.#watch = new Line("/api/events", {
       opened: () => void this.look(),
-      text: (data) => { if ((data as { bench?: string }).bench === this.name) void this.look(); },
+      text: (data) => {
+        const said = data as { bench?: string; kind?: string };
+        if (said.bench !== this.name) return;
+        if (said.kind === "desk") this.begun++;
+        void this.look();
+      },
       binary: () => undefined,
       state: () => undefined,
     });
@@ -216,7 +228,7 @@ class Bench {
     if (this.edge === "away") return "the bench's edge is not connected";
     const holder = this.lease?.holder;
     if (holder && !holder.you) return `${holder.who} has the bench`;
-    if (holder && !this.mine) return holder.run ? "a run of yours goes on" : "you have the bench in another page or terminal";
+    if (holder && !this.mine) return holder.run || this.runs ? "a run of yours goes on" : "you have the bench in another page or terminal";
     return null;
   }
 }

@@ -6,6 +6,8 @@ import type {
 } from "../api/documents";
 import { reel, type Frames, type Reel } from "../replay/frames";
 import { bench } from "./bench.svelte";
+import { asks, type Question } from "./recipes";
+import { session } from "./session.svelte";
 import { told } from "./told.svelte";
 
 /** One step of what is under way. */
@@ -13,8 +15,9 @@ export interface Step { state: "waiting" | "going" | "done" | "failed" | "unknow
 
 export interface Going {
   words: string[];
-  /** What it is called among the desk's runs. */
+  /** What it is called among the desk's runs, and who began it where that is somebody else. */
   run: string | null;
+  who: string | null;
   plan: Plan | null;
   events: BenchEvent[];
   /** What was said that is neither plan, event nor report. */
@@ -30,10 +33,10 @@ export interface Answer { said: Said[]; exit: number; diagnostics: Diagnostic[] 
 /** Where this tab keeps what it began, to follow it after a reload. */
 const KEPT = "pico-run";
 
-interface DeskRun { id: string; bench: string; command: string; words: string[]; exit: number | null }
+interface DeskRun { id: string; who: string; bench: string; command: string; words: string[]; exit: number | null }
 
 function none(): Going {
-  return { words: [], run: null, plan: null, events: [], said: [], steps: {}, report: null, exit: null, diagnostics: [] };
+  return { words: [], run: null, who: null, plan: null, events: [], said: [], steps: {}, report: null, exit: null, diagnostics: [] };
 }
 
 class Desk {
@@ -50,6 +53,10 @@ class Desk {
   runs = $state.raw<RunDocument[]>([]);
   lasers = $state.raw<Laser[]>([]);
   going = $state<Going | null>(null);
+  /** What is wrong with the answer that was given last. */
+  refused = $state<Diagnostic[]>([]);
+  /** The question that was answered, until something is said after it. */
+  #answered = $state("");
   /** The lines that were last written into the manifest. */
   patch = $state("");
   /** Commands that are under way. */
@@ -155,6 +162,33 @@ class Desk {
     return answer.exit === 0;
   }
 
+  /** What is asked now by what is under way. */
+  get question(): Question | null {
+    const found = this.going && this.going.exit === null ? asks(this.going.said) : null;
+    return found && `${this.going?.run} ${found.id}` !== this.#answered ? found : null;
+  }
+
+  /** Why one may not answer it; null where one may. */
+  get mayAnswer(): string | null {
+    if (!session.may("operator", bench.lab)) return "needs the role operator";
+    const who = this.going?.who ?? session.me?.name;
+    return who !== session.me?.name && !session.may("admin", bench.lab) ? `${who} began it, and answers it` : null;
+  }
+
+  /** Answer it, as one would at a terminal. */
+  async answer(word: string): Promise<void> {
+    const run = this.going?.run, { question } = this;
+    if (!run || !question) return;
+    this.refused = [];
+    try {
+      await ask("post", "/api/labs/{lab}/desk/runs/{run}/answers", { lab: bench.lab, run }, { question: question.id, answer: word });
+      this.#answered = `${run} ${question.id}`;
+    } catch (failure) {
+      if (!(failure instanceof Refused)) throw failure;
+      this.refused = failure.diagnostics;
+    }
+  }
+
   /** Cancel what is under way, as Ctrl-C would: nothing more starts, and a part in the hand is set down. */
   async cancel(): Promise<void> {
     const run = this.going?.run;
@@ -172,8 +206,8 @@ class Desk {
     const mine = sessionStorage.getItem(KEPT);
     sessionStorage.removeItem(KEPT);
     const one = runs.find((each) => each.id === mine) ?? runs.find((each) => each.exit === null && [bench.name, bench.at.bench].includes(each.bench));
-    if (!one) return;
-    this.going = { ...none(), words: [...one.command.split(" "), ...one.words], run: one.id };
+    if (!one || (this.going && this.going.exit === null)) return;
+    this.going = { ...none(), words: [...one.command.split(" "), ...one.words], run: one.id, who: one.who };
     const live = this.going;
     for await (const said of lines<Said>("get", filled("/api/labs/{lab}/desk/runs/{run}/events", { lab: bench.lab, run: one.id }))) {
       if ("exit" in said && !("schema" in said)) live.exit = (said as { exit: number }).exit;
@@ -229,7 +263,10 @@ export function heard(going: Going, said: Said): void {
     } else if (event.kind === "operation_done") Object.assign(step, { state: "done", fraction: 1, phase: "" });
     else if (event.kind === "operation_failed") step.state = "failed";
     else if (event.kind === "operation_unknown") step.state = "unknown";
-  } else going.said.push(said);
+  } else {
+    going.said.push(said);
+    if (said.schema === "pico.question/v1") desk.refused = [];
+  }
 }
 
 export const desk = new Desk();

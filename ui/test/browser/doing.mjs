@@ -80,11 +80,6 @@ await step("recipe runs", async () => {
   await panel.getByLabel("Steps").locator(".done").first().waitFor(); // what went on is followed
 });
 await step("recipe done", async () => { await panel.getByRole("status").filter({ hasText: /steps, done$/ }).waitFor(); });
-await step("a recipe that asks", async () => {
-  await panel.getByRole("button", { name: /^asking/ }).click();
-  await panel.getByText("This recipe asks a person").waitFor();
-  assert.match(await panel.getByRole("button", { name: /^Run/ }).getAttribute("title"), /asks a person/);
-});
 for (const width of [1000, 420]) {
   await page.setViewportSize({ width, height: 860 });
   for (const name of ["Steer", "Measure", "Optimize", "Recipes"]) {
