@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import gc
+import logging
 import signal
 import socket
 import threading
@@ -62,11 +63,18 @@ def _unusable(certificate: Path | None, key: Path | None, why: Exception) -> Pic
 
 def configured(app: Any, **more: Any) -> uvicorn.Config:
     """Return how an app is served."""
-    return uvicorn.Config(
+    found = uvicorn.Config(
         app, log_level="warning", access_log=False, server_header=False, date_header=False, ws="websockets-sansio",
         ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST, ws_per_message_deflate=False,
         timeout_graceful_shutdown=3, h11_max_incomplete_event_size=1 << 16, **more,
     )  # fmt: skip
+    logging.getLogger("uvicorn.error").addFilter(_is_news)
+    return found
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    """Return whether a line of the log says something: uvicorn takes each socket that was refused for a mistake."""
+    return "without completing handshake" not in record.getMessage()
 
 
 class _Server(uvicorn.Server):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
+from logging.handlers import BufferingHandler
 from typing import Any
 
 import pytest
@@ -118,6 +120,17 @@ def test_no_socket_opens_without_a_token_or_a_role(coordinator: Served, declared
             assert refused(coordinator, at(path), token) == 401, path
         if "{lab}" in path:
             assert refused(coordinator, at(path), elsewhere) == 403, path
+
+
+def test_a_socket_that_was_refused_is_no_mistake_in_the_log(coordinator: Served) -> None:
+    heard, log = BufferingHandler(100), logging.getLogger("uvicorn.error")
+    log.addHandler(heard)
+    try:
+        for _ in range(2):  # what is logged of the first one is, by the end of the second
+            assert refused(coordinator, "/api/events", "x") == 401
+    finally:
+        log.removeHandler(heard)
+    assert heard.buffer == []
 
 
 def refused(served: Served, path: str, token: str | None, **options: Any) -> int:
