@@ -36,9 +36,6 @@ class Clock:
     def store(self) -> None:
         """It is kept by the process that has it."""
 
-    def pull(self, device: str, pulled: bool) -> None:
-        raise NotImplementedError
-
 
 @dataclass
 class Entries:
