@@ -6,6 +6,7 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import pytest
 from coordinators import Hand
 from hypothesis import settings
 from hypothesis import strategies as st
@@ -14,6 +15,7 @@ from sqlalchemy import insert
 
 from pico.control import leases as control
 from pico.control.leases import Asker, Lease, Turn
+from pico.diagnostics import PicoError
 from pico.server.store.books import books_in
 from pico.server.store.ordered import broken, read_audit, read_events
 from pico.server.store.tables import benches
@@ -112,3 +114,21 @@ class Book(RuleBasedStateMachine):
 
 TestBook = Book.TestCase
 TestBook.settings = settings(max_examples=12, stateful_step_count=25, deadline=None)
+
+
+@pytest.mark.parametrize("spoiled", [b"no database, but some other file of a hundred bytes or so " * 4, None])
+def test_books_that_are_damaged_are_refused_with_what_to_do(tmp_path: Path, spoiled: bytes | None) -> None:
+    file = tmp_path / "coordinator.sqlite"
+    made = books_in(tmp_path)
+    made.people.settled("ann", [], by="test")
+    made.close()
+    if spoiled is None:
+        whole = bytearray(file.read_bytes())
+        whole[4096 : len(whole) // 2] = bytes(len(whole) // 2 - 4096)  # pages that are none
+        spoiled = bytes(whole)
+    for one in tmp_path.glob("coordinator.sqlite*"):
+        one.unlink()
+    file.write_bytes(spoiled)
+    with pytest.raises(PicoError, match="are damaged") as told:
+        books_in(tmp_path)
+    assert "restore a copy" in str(told.value.diagnostics[0].hint) and file.read_bytes() == spoiled

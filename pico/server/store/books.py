@@ -8,7 +8,10 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
+from sqlalchemy.exc import DatabaseError
+
 from pico.control.leases import Turn
+from pico.diagnostics import PicoError, error
 from pico.disk import writing
 from pico.server.store.database import Clock, Database
 from pico.server.store.leases import Leases
@@ -71,10 +74,20 @@ class Books:
 
 
 def books_in(folder: Path, clock: Clock | None = None) -> Books:
-    """Return the books in a folder, made where there are none; raises PicoError."""
+    """Return the books in a folder, made where there are none; raises PicoError, also where they are damaged."""
     with writing(folder):
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         path = folder / "coordinator.sqlite"
         path.touch(mode=0o600)
     url = f"sqlite:///{path}"
-    return Books(Database(url, clock) if clock else Database(url), folder)
+    try:
+        database = Database(url, clock) if clock else Database(url)
+        damaged = database.damaged()
+    except DatabaseError as exc:
+        damaged = str(exc.orig)
+    if damaged:
+        hint = (
+            f"restore a copy of {folder}; or move it away and begin anew: people log in, and benches enrol, once more"
+        )
+        raise PicoError(error("books", f"the books of the coordinator in {path} are damaged: {damaged}", hint=hint))
+    return Books(database, folder)

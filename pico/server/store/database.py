@@ -55,6 +55,14 @@ class Database:
             return self._clock()
         return float(connection.execute(select(func.extract("epoch", func.clock_timestamp()))).scalar_one())
 
+    def damaged(self) -> str:
+        """Return what is wrong with the file of a database, empty for nothing."""
+        if not self.local:
+            return ""
+        with self.reading() as connection:
+            found = str(connection.exec_driver_sql("PRAGMA quick_check(1)").scalar_one())
+        return "" if found == "ok" else found.splitlines()[0]
+
     def close(self) -> None:
         """Let go of the database."""
         self._engine.dispose()
