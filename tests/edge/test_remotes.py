@@ -126,8 +126,11 @@ def test_a_token_is_kept_for_one_user_and_one_coordinator(monkeypatch: pytest.Mo
     keep_token("https://lab.example/", "secret")
     assert (token_of("https://lab.example"), token_of("https://evil.example")) == ("secret", None)
     assert stat.S_IMODE(tokens_file().stat().st_mode) == 0o600
-    monkeypatch.setenv("PICO_TOKEN", "of a program")
-    assert token_of("https://lab.example") == "of a program"
+    monkeypatch.setenv("PICO_TOKEN", " of-a-program\n")
+    assert token_of("https://lab.example") == "of-a-program"
+    monkeypatch.setenv("PICO_TOKEN", "of a\nprogram")
+    with pytest.raises(PicoError, match="PICO_TOKEN holds no token"):
+        token_of("https://lab.example")
     monkeypatch.delenv("PICO_TOKEN")
     tokens_file().chmod(0o644)
     with pytest.raises(PicoError, match="others may read"):

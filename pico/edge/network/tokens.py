@@ -19,7 +19,10 @@ VARIABLE = "PICO_TOKEN"
 def token_of(url: str) -> str | None:
     """Return the token for the coordinator at `url`, None where there is none; raises PicoError where the file can't be
     read, or others may read it."""
-    return os.environ.get(VARIABLE) or _read().get(url.rstrip("/"))
+    given = os.environ.get(VARIABLE, "").strip()
+    if not all("!" <= letter <= "~" for letter in given):
+        raise PicoError(error("token", f"{VARIABLE} holds no token", hint="one word, as `pico token add` shows it"))
+    return given or _read().get(url.rstrip("/"))
 
 
 def keep_token(url: str, token: str) -> None:
