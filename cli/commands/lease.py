@@ -88,8 +88,9 @@ def steal(
     session.require_answer(auto_approve)
     holding = _holding(session)
     found = holding.show()
-    who = found["holder"]["who"] if found["holder"] else "nobody"
-    if not session.confirm(f"Take {holding.far.name} from {who}?", auto_approve):
+    name, holder = holding.far.name, found["holder"]
+    asked = f"Take {name} from {holder['who']}?" if holder else f"Nobody has {name}. Take it?"
+    if not session.confirm(asked, auto_approve):
         session.say("Nothing was taken.")
         return 1
     _hold(session, holding, holding.steal(reason))

@@ -140,7 +140,7 @@ def test_who_logs_in_after_somebody_else_in_their_checkout_does_not_have_what_th
     assert not pico("--json", "lease", "show").data["mine"]
     assert pico("lease", "release").code == ExitCode.LOCKED
     monkeypatch.delenv("PICO_TOKEN")
-    monkeypatch.setenv("PICO_TOKEN", "of somebody whose token is over")
+    monkeypatch.setenv("PICO_TOKEN", "of-somebody-whose-token-is-over")
     assert "PICO_TOKEN is set" in pico("lease", "show").err
     monkeypatch.delenv("PICO_TOKEN")
     assert pico("--json", "lease", "show").data["mine"] and "is given back" in pico("lease", "release").out
