@@ -85,8 +85,6 @@ def prompt(question: Question) -> str:
     from pico.model.trace.question import wanted
     from pico.recipes.terms import said
 
-    if question.kind == "confirm":
-        return f"{question.text} [y/N] "
     usual = f"; without a word {said(question.default)}" if question.default is not None else ""
     return f"{question.text} [{wanted(question)}{usual}] "
 

@@ -58,14 +58,19 @@ def detached(bench: Bench, word: str | None) -> Sent | None:
 
 
 def follow(session: Session, bench: Bench, sent: Sent) -> int:
-    """Show what such a run says until it is over, and have its commits and runs here; return its exit code."""
+    """Show what such a run says until it is over, with somebody at a terminal who answers what it asks, and have its
+    commits and runs here; return its exit code."""
     from pico.edge.network.asking import ask, lines
     from pico.edge.network.session import begun
     from pico.history.repository.sending import fetch
 
+    from .asking import at_terminal
+    from .following import Following
+
     far, code = _far(bench), int(ExitCode.ERROR)
     at = f"{_desk(far)}/runs/{sent.run}"
-    for document in lines(far.remote, f"{at}/events"):
+    answered = at_terminal(session)
+    for document in Following(session, far.remote, at).documents() if answered else lines(far.remote, f"{at}/events"):
         if "exit" in document and "schema" not in document:
             code = int(document["exit"])
         elif session.json:

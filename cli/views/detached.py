@@ -13,6 +13,8 @@ def line(document: Mapping[str, Any]) -> str:
     if document.get("event") == "step":
         depth = str(document["path"]).count(".") + 1
         return f"{'  ' * depth}{document['title']}"
+    if document.get("schema") == "pico.question/v1":
+        return f"asks: {document['text']} (answered in the page, or by `pico runs attach` at a terminal)"
     if document.get("schema") == "pico.diagnostics/v1":
         return "\n".join(f"{one['severity']}[{one['code']}]: {one['summary']}" for one in document["diagnostics"])
     if document.get("schema") == "pico.recipe_run/v1":

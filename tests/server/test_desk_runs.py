@@ -5,8 +5,10 @@ from __future__ import annotations
 import asyncio
 import http.client
 import json
+import os
 import shutil
 import subprocess
+import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -15,7 +17,7 @@ from typing import Any
 import pytest
 from commanding import Pico
 from coordinators import served
-from desks import WARM, Desked, asked, desked, followed, placed, say
+from desks import ASKING, WARM, Desked, asked, desked, followed, placed, say
 
 from pico.backends.sim.session import WorldSession
 from pico.diagnostics import PicoError
@@ -122,14 +124,43 @@ def test_nobody_has_more_commands_going_than_there_is_room_for(desk: Desked, mon
     }
 
 
-def test_a_recipe_goes_on_beside_the_coordinator_and_its_commits_and_runs_come_back(
-    desk: Desked, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
-) -> None:
-    mine = Path(shutil.copytree(desk.root, tmp_path / "mine", ignore=shutil.ignore_patterns(".pico")))
-    monkeypatch.chdir(mine)
+@pytest.fixture
+def mine(desk: Desked, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico) -> Path:
+    """A checkout of anna's, in which commands go to the bench at the coordinator."""
+    made = Path(shutil.copytree(desk.root, tmp_path / "mine", ignore=shutil.ignore_patterns(".pico")))
+    monkeypatch.chdir(made)
     monkeypatch.setenv("PICO_TOKEN", desk.served.person("anna", "operator"))
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     assert pico("remote", "add", "lab", f"http://127.0.0.1:{desk.served.port}", "--default", "shel/bench1").code == 0
+    return made
+
+
+def test_what_a_detached_recipe_asks_is_answered_at_the_terminal_that_follows_it(
+    desk: Desked, mine: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
+) -> None:
+    (mine / "recipes" / "asking.yaml").write_text(ASKING)
+    left = pico("--json", "run", "asking", "--yes", "--detach")
+    assert left.code == 0, left.err + left.out
+    run = json.loads(left.out)["run"]
+    typed, typing = os.pipe()
+    anna = desk.served.person("anna", "operator")
+    elsewhere = threading.Thread(target=lambda: say(desk, anna, asked(desk, anna, "q2", "3")[0], "q2", "gold"))
+    elsewhere.start()
+    with os.fdopen(typed, "rb") as stdin, os.fdopen(typing, "wb", buffering=0) as keys:
+        monkeypatch.setattr("sys.stdin", stdin)
+        monkeypatch.setattr("pico_cli.runs.asking.at_terminal", lambda _: True)
+        keys.write(b"6\n400 uW\n")
+        found = pico("runs", "attach", run)
+    elsewhere.join(60)
+    assert found.code == 0 and "asking: done" in found.out, found.out + found.err
+    assert found.out.count("Read the meter. [a number in mW from 0 to 5] ") == 2 and "out of range: 6 mW" in found.err
+    said = lines(desk, desk.served.person("vera", "viewer"), run)
+    assert said[-2]["returns"] == {"read": pytest.approx(0.4), "which": "gold"}
+
+
+def test_a_recipe_goes_on_beside_the_coordinator_and_its_commits_and_runs_come_back(
+    desk: Desked, mine: Path, pico: Pico
+) -> None:
     (mine / "recipes" / "turning.yaml").write_text(RECIPE)
     before = (mine / "state" / "table.yaml").read_text(), git(mine, "status", "--porcelain"), git(mine, "branch")
     left = pico("--json", "run", "turning", "-p", "to=4", "--yes", "--detach")
