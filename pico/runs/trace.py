@@ -98,7 +98,7 @@ def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
     taken = [
         (e, m["component"], m["measurable"], m["array"]) for e in trace if (m := measurement_in(e)) and m.get("array")
     ]
-    tried = [(e, e.component, "points", points) for e in trace if (points := e.data.get("data", {}).get("points"))]
+    tried = [(e, e.component, what, points) for e in trace for what, points in _tried(e.data.get("data", {}))]
     return tuple(
         Artifact(
             name=f"{e.operation}-{component}-{_plain(what)}.npy", sha256=array["sha256"], size=array["size"],
@@ -106,6 +106,15 @@ def artifacts(trace: Sequence[TraceEvent]) -> tuple[Artifact, ...]:
         )
         for e, component, what, array in sorted([*taken, *tried], key=lambda one: one[0].seq)
     )  # fmt: skip
+
+
+def _tried(data: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Yield what was tried for goals that were sought first, then for the one itself, each with what it is called."""
+    for stage in data.get("stages") or ():
+        if points := stage.get("points"):
+            yield f"{stage.get('goal', '')}.points", points
+    if points := data.get("points"):
+        yield "points", points
 
 
 def unmet(trace: Sequence[TraceEvent]) -> Iterator[str]:

@@ -16,6 +16,7 @@ from pico.diagnostics import Diagnostic
 from pico.model.trace.run import Run, TraceEvent
 from pico.runs.files import INLINE, intact, read_runs, run_files, run_folder
 from pico.runs.reading import read_events
+from pico.runs.trace import artifacts
 
 FOLDER = "runs/2026/11/20261121T101155Z-af9bba"
 
@@ -151,3 +152,15 @@ def test_other_files_below_runs_are_none_of_ours() -> None:
     wrong: list[Diagnostic] = []
     assert read_runs(files, wrong) == ()
     assert wrong == []
+
+
+def test_what_was_tried_for_goals_that_came_first_goes_with_the_run_as_well() -> None:
+    def points(name: str) -> dict[str, Any]:
+        return {"sha256": hashlib.sha256(name.encode()).hexdigest(), "size": 8, "shape": [1, 1], "dtype": "float64"}
+
+    stages = [{"goal": "light found", "points": points("a")}, {"goal": "dark"}]
+    data = {"goal": "centred", "points": points("b"), "stages": stages}
+    ended = TraceEvent(t=1.0, seq=3, kind="done", operation="op4", component="ly_150", data={"data": data})
+    found = artifacts([ended])
+    assert [one.name for one in found] == ["op4-ly_150-light-found.points.npy", "op4-ly_150-points.npy"]
+    assert [one.sha256 for one in found] == [points("a")["sha256"], points("b")["sha256"]]
