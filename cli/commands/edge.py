@@ -98,7 +98,7 @@ async def _serve(session: Session, edge: LocalEdge, enrolment: Enrolment | None)
         if enrolment is not None:
             from pico.edge.network.uplink import Uplink
 
-            beside = Uplink(edge, enrolment).run
+            beside = Uplink(edge, enrolment, session.say).run
         with waiting("Connecting to the devices"):
             devices = await _reached(edge)
         able = await edge.describe()

@@ -13,12 +13,13 @@ from edges import Client, Connected, client, connected, refusal
 from sqlalchemy import select, update
 
 from pico.bench.bench import Bench
-from pico.diagnostics import ExitCode, PicoError
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.protocol import Job
 from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
 from pico.planning import Planner, set_one
+from pico.server.relay import dispatch
 from pico.server.store.commands import CommandRows
 from pico.server.store.tables import commands
 
@@ -151,6 +152,24 @@ def test_an_enrolled_bench_is_granted_by_its_coordinator_alone(edge: Connected, 
         with pytest.raises(PicoError, match="enrolled as shel/bench1") as caught:
             bench.apply(bench.single("p2", "move", x=560))
     assert caught.value.exit_code == ExitCode.LOCKED
+
+
+def test_what_hinders_an_edge_from_a_lease_is_told_and_over_once_it_is_mended(
+    edge: Connected, anna: Client, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan, gate = turning(edge, anna, 33.0), edge.uplink.granting._kept
+
+    def full(token: int) -> None:
+        raise PicoError(error("gate", "the disk is full"))
+
+    with monkeypatch.context() as broken:
+        broken.setattr(dispatch, "HINDERED", 0.1)
+        broken.setattr(gate, "fence", full)
+        refused = refusal(anna, "start", Job(plan=plan, holder="pico apply"), "r1")
+    assert refused.exit_code is ExitCode.LOCKED
+    assert refused.diagnostics[0].summary.endswith("does not get ready for a lease: the disk is full")
+    assert anna.ask("start", Job(plan=plan, holder="pico apply"), "r2") == "r2"
+    assert anna.events("r2")[-1]["data"]["outcome"] == "done"
 
 
 def test_roles_are_asked_for_before_anything_is_handed_on(coordinator: Served, edge: Connected) -> None:

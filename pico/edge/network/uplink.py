@@ -12,7 +12,7 @@ from __future__ import annotations
 import asyncio
 import json
 import secrets
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
@@ -47,8 +47,9 @@ Document = dict[str, Any]
 class Uplink:
     """The line of one edge."""
 
-    def __init__(self, edge: LocalEdge, enrolment: Enrolment) -> None:
-        """Raises PicoError where the edge can't keep what it must."""
+    def __init__(self, edge: LocalEdge, enrolment: Enrolment, say: Callable[[str], object] = lambda _: None) -> None:
+        """`say`: is told when the line is there, when it is cut, and what hinders the edge. Raises PicoError where the
+        edge can't keep what it must."""
         self._edge, self._enrolment, self._answering = edge, enrolment, Answering(edge)
         self.granting = Granting(bench_folder(edge.root) / "gate.sqlite", edge.last_token())
         edge.granted_by(self.granting)
@@ -61,6 +62,9 @@ class Uplink:
         self._run: tuple[str, str, bool] | None = None  # what a command started, its key, whether in an open run
         self.wrong: tuple[Diagnostic, ...] = ()
         """What could not be done when a lease was over."""
+        self._hindered: tuple[Diagnostic, ...] = ()
+        """Why it can't fence for the next lease."""
+        self._say, self._said = say, ""
         self._left: Document | None = None  # how the bench was left then, and by which question that was told
         self._left_told = 0
         self._told: tuple[str, ...] = ()  # the commands of earlier leases that the coordinator asked for
@@ -79,16 +83,25 @@ class Uplink:
                     await self._connected()
                 except PicoError as exc:
                     self.wrong = tuple(exc.diagnostics)
+                    self._tell(f"not connected: {exc.diagnostics[0].summary}")
                     wait = AGAIN[1]
-                except (OSError, TimeoutError, WebSocketException, KeyError, TypeError, ValueError):
+                except (OSError, TimeoutError, WebSocketException, KeyError, TypeError, ValueError) as exc:
+                    self._tell(f"cut off from {self._enrolment.url}, dialling again: {exc or type(exc).__name__}")
                     wait = min(2 * wait, AGAIN[1])
                 else:
+                    self._tell(f"cut off from {self._enrolment.url}, dialling again")
                     wait = AGAIN[0]
                 self._link = None
                 await asyncio.sleep(wait)
         finally:
             minding.cancel()
             self.granting.close()
+
+    def _tell(self, text: str) -> None:
+        """Say something that was not what was said last."""
+        if text != self._said:
+            self._said = text
+            self._say(text)
 
     # the connection
 
@@ -109,6 +122,7 @@ class Uplink:
                 to.require_pinned(link.transport.get_extra_info("ssl_object").getpeercert(True))
             await self._greet(link, nonce)
             self._link = link
+            self._tell(f"connected to {to.url} as {to.bench}")
             asking = asyncio.create_task(self._ask(link))
             try:
                 async for data in link:
@@ -153,7 +167,9 @@ class Uplink:
         self._asked.pop(number - LATE, None)
         left = {} if self._left is None else {"left": self._left}
         self._left_told = self._left_told or (number if left else 0)
-        told = {"records": self._records(self._told)} if self._told else {}
+        told: Document = {"records": self._records(self._told)} if self._told else {}
+        if self._hindered:
+            told["hindered"] = [one.summary for one in self._hindered]
         self._told = ()
         await link.send(messages.text({"poll": {"asked": number, **self._state(), **left, **told}}))
 
@@ -296,10 +312,13 @@ class Uplink:
                 await self._over()
                 if self.granting.gate.pending:
                     await self._fence()
+                    self._hindered = ()
                 elif self.granting.lapsed:
                     await self._lapsed()
             except PicoError as exc:  # a full disk: it is tried again
-                self.wrong = tuple(exc.diagnostics)
+                self.wrong = self._hindered = tuple(exc.diagnostics)
+                self._tell(exc.diagnostics[0].summary)
+                self._news.set()
                 await asyncio.sleep(1.0)
 
     async def _fence(self) -> None:

@@ -36,6 +36,8 @@ AWAY, LASTING_AWAY = 10.0, 60.0
 LASTING = frozenset({"report", "events", "film", "finish", "execute", "leave"})
 FENCES = 60.0
 """Seconds in which an edge drains and fences."""
+HINDERED = 3.0
+"""Seconds after which somebody is told what hinders an edge from getting ready for their lease."""
 AGAIN = 0.05
 """Seconds after which a command is sent again that could not be taken on yet."""
 TAKEN = "pico lease take"
@@ -234,10 +236,19 @@ class Dispatcher:
                 now = loop.time()
                 if grant is None and row.grant is not None and now >= until:
                     raise PicoError(await self._in_use(call.bench), ExitCode.LOCKED)
-                if now >= began + patience + FENCES or (self.hub.connected(call.bench) is None and now >= began + AWAY):
+                line = self.hub.connected(call.bench)
+                why = line.hindered if line is not None else ""
+                if (
+                    now >= began + patience + FENCES
+                    or (line is None and now >= began + AWAY)
+                    or (why and grant is not None and now >= began + HINDERED)
+                ):
                     await self.hub.line(call.bench, 0.0)
-                    text = f"the edge of {call.bench} does not get ready for a lease"
-                    raise PicoError(error("away", text, hint="`pico status` shows what it does"), ExitCode.LOCKED)
+                    text = f"the edge of {call.bench} does not get ready for a lease{': ' if why else ''}{why}"
+                    hint = (
+                        "mend that beside the table; nothing has moved" if why else "`pico status` shows what it does"
+                    )
+                    raise PicoError(error("away", text, hint=hint), ExitCode.LOCKED)
                 wait = HEARTBEAT if grant is not None or row.grant is None else min(HEARTBEAT, max(until - now, 0.0))
                 await _first(wait, turned, cancelled)
         except BaseException:

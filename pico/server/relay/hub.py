@@ -23,11 +23,12 @@ class Gone(Exception):
 
 
 class EdgeLine:
-    """A connected edge of a bench; `hello`: what it said of itself, `fenced` and `moving` what it said last."""
+    """A connected edge of a bench; `hello`: what it said of itself, `fenced`, `moving` and `hindered` (from
+    fencing for a lease, in words) what it said last."""
 
     def __init__(self, bench: str, hello: Document, send: Send) -> None:
         self.bench, self.hello, self._send = bench, hello, send
-        self.fenced, self.moving = int(hello["fenced"]), ""
+        self.fenced, self.moving, self.hindered = int(hello["fenced"]), "", ""
         self.over = asyncio.Event()
         self._waiting: dict[str, Callable[[Document | None], None]] = {}
 

@@ -24,6 +24,7 @@ class Polled:
         itself is of when it asked."""
         books, line, bench = self._books, self._line, self._line.bench
         line.fenced, line.moving = int(poll["fenced"]), str(poll["moving"] or "")
+        line.hindered = ", ".join(str(one)[:300] for one in list(poll.get("hindered", ()))[:3])
         if poll.get("left"):
             await books.do(self._left, str(poll["left"]["at"])[:40], list(poll["left"]["wrong"])[:20])
             books.announce()
