@@ -273,6 +273,11 @@ def on_behalf_of(who: str) -> Iterator[None]:
             _FOR.reset(before)
 
 
+def from_afar() -> str:
+    """Return for whom of a coordinator something is done; empty where it is for nobody there."""
+    return _FOR.get() or ""
+
+
 def user() -> str:
     """Return the name of whom something is done for: the user of this process, or the number where it has no name, if
     it is not for somebody else (`on_behalf_of`)."""

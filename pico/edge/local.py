@@ -15,10 +15,10 @@ from pico.attachment import bench_folder, require_attached
 from pico.backends.device import Capabilities, Device, Shown
 from pico.backends.devices import opener
 from pico.backends.world import World
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.edge import own_lab
 from pico.edge.kept_lab import KeptLab
-from pico.edge.lease import BenchLock, utc_now
+from pico.edge.lease import BenchLock, from_afar, utc_now
 from pico.edge.protocol import RECIPE, UNATTENDED, Granting, Holder, Job, Lease, OwnLab
 from pico.edge.remembering import Remembering
 from pico.edge.started import StartedRuns
@@ -85,6 +85,7 @@ class LocalEdge:
         self._able: tuple[Device, Capabilities] | None = None
         self._lease: Lease | None = None
         self._halted = False
+        self._ended_for = ""  # why what is under way was ended by somebody else than its client
         self._stopping: Stopping = ""
         self._attempts: Attempts | None = None
         self._steering: Teleoperating | None = None
@@ -298,7 +299,8 @@ class LocalEdge:
     async def drain(self) -> None:
         """Bring what is under way to its safe end, and take the bench back from whoever has it."""
         if (lease := self._lease) is not None:
-            await self.halt()
+            self._ended_for = self._ended_for or "its lease was over: the coordinator was away, or gave the bench away"
+            await self._halt()
             await self._ended()
             await self.release(lease)
 
@@ -355,7 +357,7 @@ class LocalEdge:
         lease = await self._lock.acquire_within(
             holder, wait, lambda: run in self._runs.cancelled or (own and self._halted)
         )
-        self._halted, self._stopping = False, ""
+        self._halted, self._stopping, self._ended_for = False, "", ""
         try:
             self._require_kept()
             try:
@@ -659,7 +661,9 @@ class LocalEdge:
             raise PicoError([*told_by(events), *exc.diagnostics], exc.exit_code) from exc
         report = run_report(self.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
-        report = replace(report, diagnostics=(*report.diagnostics, *self._kept.told(), *self._told()))
+        report = replace(
+            report, diagnostics=(*report.diagnostics, *self._kept.told(), *self._told(), *self._why(report))
+        )
         if self._open is not None:
             return report
         try:
@@ -705,15 +709,24 @@ class LocalEdge:
         """Start nothing more of a run, and bring everything to a safe end."""
         self._runs.cancelled.add(run)
         if self._running is not None and self._running.id == run:
-            await self.halt()
+            await self._halt()
 
     async def halt(self) -> None:
         """Start nothing more, and wait until what is under way has reached a safe end."""
+        self._stopped_for()
+        await self._halt()
+
+    async def _halt(self) -> None:
         self._interrupt()
         await self.device.halt()
 
+    def _stopped_for(self) -> None:
+        if who := from_afar():
+            self._ended_for = self._ended_for or f"{who} stopped it"
+
     async def stop(self) -> None:
         """Stop everything where it is; grippers hold what they hold. Nothing starts until the bench is taken anew."""
+        self._stopped_for()
         self._interrupt()
         self._stopping = "now"
         await self.device.stop()
@@ -722,6 +735,12 @@ class LocalEdge:
         self._halted, self._stopping = True, self._stopping or "safely"
         if self._running is not None and self._running.walk is not None:
             self._running.walk.interrupt()
+
+    def _why(self, report: RunReport) -> tuple[Diagnostic, ...]:
+        """Return why a run was interrupted, where its client does not know."""
+        if report.outcome != "interrupted" or not self._ended_for:
+            return ()
+        return (warning("ended", self._ended_for),)
 
     # remembering
 

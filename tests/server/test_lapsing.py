@@ -108,12 +108,26 @@ def test_a_lease_that_is_stolen_ends_the_run_safely_before_the_next_one_begins(
     assert status in (200, 202)
     until(lambda: edge.uplink.granting.gate.memory.fenced == 2)
     assert outcome(edge) == "interrupted"
+    assert [d.summary[:19] for d in anna.ask("report", "r1").diagnostics if d.code == "ended"] == [
+        "its lease was over:"
+    ]
     with client(coordinator, thief, "s2") as ben:
         until(lambda: coordinator.books.leases.shown(BENCH)[0].grant.fenced)  # type: ignore[union-attr]
         assert ben.ask("start", Job(plan=mended(ben, planned[1]), holder="test"), "r2") == "r2"
         assert ben.ask("report", "r2").outcome == "done"
     moved = [r for r in edge.edge.memory.records() if r.kind == "started"]  # type: ignore[union-attr]
     assert [r.token for r in moved] == sorted(r.token for r in moved)
+
+
+def test_who_stopped_a_run_is_told_in_its_report(
+    coordinator: Served, edge: Connected, anna: Client, planned: tuple[Path, Plan]
+) -> None:
+    begun(anna, planned[1])
+    with client(coordinator, coordinator.person("vera", "viewer@shel"), "s3") as vera:
+        vera.ask("halt")
+    report = anna.ask("report", "r1")
+    assert report.outcome == "interrupted"
+    assert [d.summary for d in report.diagnostics if d.code == "ended"] == ["vera stopped it"]
 
 
 def mended(ben: Client, plan: Plan) -> Plan:
