@@ -53,6 +53,7 @@ def list_(
         str | None, typer.Argument(metavar="REV|A..B", help="Of the history of this; without it of HEAD.")
     ] = None,
     every: Annotated[bool, typer.Option("--all", help="Of all branches and tags.")] = False,
+    others: Annotated[bool, typer.Option("--others", help="What others began at the bench as well.")] = False,
 ) -> None:
     """List runs, the newest first; `pico runs` alone does the same.
 
@@ -65,7 +66,8 @@ def list_(
     session = Session.of(context)
     wrong: list[Diagnostic] = []
     history = _history(session)
-    session.show(table, history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong), wrong)
+    found = history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong)
+    session.show(table, found, wrong, history.runs_of_others(wrong) if others else None)
     session.tell(wrong)
 
 

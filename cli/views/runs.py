@@ -17,8 +17,19 @@ if TYPE_CHECKING:
 COLORS = {"done": "green", "failed": "red", "interrupted": "yellow", "killed": "red"}
 
 
-def text(found: Sequence[tuple[Run, Commit | None]], _: Sequence[Diagnostic] = ()) -> str:
-    """Return a line a run: id, what led where, evidence, outcome, seconds, commit."""
+def text(
+    found: Sequence[tuple[Run, Commit | None]], _: Sequence[Diagnostic] = (), others: Sequence[Run] | None = None
+) -> str:  # fmt: skip
+    """Return a line a run: id, what led where, evidence, outcome, seconds, commit; then those of others."""
+    own = _own(found)
+    if others is None:
+        return own
+    rows = [[*_row(run, None)[:-1], shown(run.operator)] for run in others]
+    said = "What others began at this bench, and no commit here has:" if others else "Nobody else began a run here."
+    return "\n".join([own, "", said, *columns(rows)] if rows else [own, "", said])
+
+
+def _own(found: Sequence[tuple[Run, Commit | None]]) -> str:
     if not found:
         return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
     head = [paint("dim", cell) for cell in ("run", "when (UTC)", "what", "evidence", "outcome", "took", "commit")]
@@ -66,8 +77,11 @@ def shown(value: str) -> str:
     return "".join(c if c.isprintable() else "?" for c in plain(value))
 
 
-def data(found: Sequence[tuple[Run, Commit | None]], wrong: Sequence[Diagnostic] = ()) -> dict[str, Any]:
-    """Return schema `pico.runs/v1`: `runs`, each `document` with its `commit` (absent where none has it yet), and
-    `diagnostics`."""
+def data(
+    found: Sequence[tuple[Run, Commit | None]], wrong: Sequence[Diagnostic] = (), others: Sequence[Run] | None = None
+) -> dict[str, Any]:  # fmt: skip
+    """Return schema `pico.runs/v1`: `runs`, each `document` with its `commit` (absent where none has it yet),
+    `others` (each `document` of a run that somebody else began at the bench), and `diagnostics`."""
     runs = [{"document": as_json(run), **({"commit": commit.id} if commit else {})} for run, commit in found]
-    return {"schema": "pico.runs/v1", "runs": runs, "diagnostics": as_json(list(wrong))}
+    foreign = [{"document": as_json(run)} for run in others or ()]
+    return {"schema": "pico.runs/v1", "runs": runs, "others": foreign, "diagnostics": as_json(list(wrong))}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.lab.folder import CommitEntry, LabFolder
 from pico.history.lab.notes import Note
 from pico.model.plan import Plan, plan_from_json
@@ -154,6 +154,12 @@ class LabHistory:
         from pico.history.runs.listing import list_runs
 
         return list_runs(self.folder, revision, **options)
+
+    def runs_of_others(self, diagnostics: list[Diagnostic] | None = None) -> tuple[Run, ...]:
+        """Return the runs that others began at a bench that is shared, and no commit here has, the newest first."""
+        from pico.history.runs.uncommitted import of_others
+
+        return tuple(run.document for run in reversed(of_others(self.folder, diagnostics=diagnostics)))
 
     def recorded_run(self, word: str | None = None) -> tuple[RecordedRun, Commit | None]:
         """Return a run by the beginning of its id, the last one for None; see `pico.history.runs.loading.load_run`."""

@@ -47,6 +47,17 @@ def runs(pico: Pico, *words: str) -> list[dict[str, Any]]:
     return found
 
 
+def test_what_others_began_stands_apart(here: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert "Nobody else began a run here." in pico("runs", "list", "--others").out
+    monkeypatch.setattr("pico.history.runs.uncommitted._own", lambda *_: [])  # as at a bench that others use
+    found = pico("--json", "runs", "list", "--others").data
+    (theirs,) = (one["document"] for one in found["others"])
+    assert theirs["id"] not in [one["document"]["id"] for one in found["runs"]]
+    own, _, others = pico("runs", "list", "--others").out.partition("What others began at this bench")
+    assert theirs["id"][-6:] in others and theirs["operator"] in others and theirs["id"][-6:] not in own
+    assert theirs["id"] in pico("runs", "show", theirs["id"][-6:]).out
+
+
 def test_runs_are_listed_newest_first_a_line_each(here: Path, pico: Pico) -> None:
     answer = pico("runs", "list")
     assert answer.code == 0

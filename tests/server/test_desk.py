@@ -215,3 +215,16 @@ def test_tokens_of_commands_carry_no_more_than_the_one_that_asked_and_are_over_w
     left = [one for one in people.tokens("carla") if one["label"].startswith("desk")]
     assert [one["label"] for one in left] == ["desk"] and left[0]["scope"] == ["operator@shel"]
     assert left[0]["expires_at"] - left[0]["created_at"] < 600
+
+
+def test_what_others_did_at_the_bench_is_listed_beside_ones_own_runs(desk: Desked) -> None:
+    anna, ben = desk.served.person("anna", "operator"), desk.served.person("ben", "operator")
+    desk.said(ben, "set", "p1", "angle=7", "-y")
+    (mine,) = (one["document"] for one in desk.said(ben, "runs list", "--others")[0]["runs"][:1])
+    found = desk.said(anna, "runs list", "--all", "--others")[0]
+    theirs = found["others"][0]["document"]
+    assert (theirs["id"], theirs["operator"]) == (mine["id"], "ben")
+    assert mine["id"] not in [one["document"]["id"] for one in found["runs"]]
+    assert desk.said(anna, "runs show", mine["id"][-6:])[0]["document"]["id"] == mine["id"]
+    assert desk.said(anna, "runs list")[0]["others"] == []
+    assert mine["id"] not in [o["document"]["id"] for o in desk.said(ben, "runs list", "--others")[0]["others"]]

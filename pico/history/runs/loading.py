@@ -22,7 +22,7 @@ from pico.history.runs.committed import (
     read_carried,
     read_place,
 )
-from pico.history.runs.uncommitted import unrecorded
+from pico.history.runs.uncommitted import of_others, unrecorded
 from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.model.trace.run import Run, TraceEvent
@@ -87,7 +87,10 @@ def _loaded(folder: LabFolder, word: str | None) -> tuple[RecordedRun, Commit | 
         name = _last(folder, own, places)
         return (own[name], None) if name in own else _carried(folder, places[name], wrong)
     folded = places_folded(folder.history(), places.values()) if places else {}
-    name = _chosen(word, sorted({*own, *places}), sorted(folded))
+    known = sorted({*own, *places})
+    if not _fitting(word, known) and (there := {run.document.id: run for run in of_others(folder, word, wrong)}):
+        return there[_chosen(word, sorted(there), ())], None
+    name = _chosen(word, known, sorted(folded))
     if name in own:
         return own[name], None
     return _carried(folder, places[name], wrong) if name in places else _member(folder, name, folded[name], wrong)

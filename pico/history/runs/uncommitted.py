@@ -6,7 +6,7 @@ a run is carried by the commit of the state that it led to, or by the next one w
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
@@ -28,6 +28,9 @@ from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_
 from pico.runs.folding import fold
 from pico.runs.journal import RunRecord
 from pico.runs.states import changes
+
+MOST_OF_OTHERS = 50
+"""How many runs that others began at a bench are shown, the last ones."""
 
 
 def pending(
@@ -92,14 +95,38 @@ def unrecorded(folder: LabFolder, diagnostics: list[Diagnostic] | None = None) -
         return []
 
 
-def _unrecorded(folder: LabFolder) -> list[RecordedRun]:
+def of_others(folder: LabFolder, word: str = "", diagnostics: list[Diagnostic] | None = None) -> list[RecordedRun]:
+    """Return the runs that others began at a bench that is shared, and that no commit here has, in the order in which
+    they began: the last `MOST_OF_OTHERS`, of those whose id begins or ends with `word`; no commit of this checkout
+    takes them. What can't be read raises PicoError, or is appended to `diagnostics`."""
+
+    def those(folder: LabFolder, runs: Iterable[RunRecord]) -> Iterable[RunRecord]:
+        every = list(runs)
+        own = {run.run for run in _own(folder, every)}
+        left = [r for r in every if r.run not in own and (r.run.startswith(word) or r.run.endswith(word))]
+        return left[-MOST_OF_OTHERS:]
+
+    try:
+        return _unrecorded(folder, those)
+    except PicoError as exc:
+        if diagnostics is None:
+            raise
+        diagnostics += exc.diagnostics
+        return []
+
+
+def _unrecorded(
+    folder: LabFolder, those: Callable[[LabFolder, Iterable[RunRecord]], Iterable[RunRecord]] | None = None
+) -> list[RecordedRun]:  # fmt: skip
     if folder.far is None and bench_folder(folder.root).resolve() != own_folder(folder.root).resolve():
         return []  # they are carried by what is committed in the worktree that has the bench
     with remembered(folder.root, folder.far) as memory:
         if memory is None:
             return []
         moving = memory.moving()
-        over = [run for run in _own(folder, memory.runs()) if run.run in moving and not _goes_on(folder, run)]
+        over = [
+            run for run in (those or _own)(folder, memory.runs()) if run.run in moving and not _goes_on(folder, run)
+        ]
         carried = _carried(folder, over)
         fresh = ((run, part) for run in over if (part := carried.get(run.run, -1) + 1) <= run.resumed)
         found = (recorded(folder.setup, memory, run, part) for run, part in fresh)

@@ -68,7 +68,7 @@ COMMANDS: Mapping[str, Command] = {
     "recipe check": _looks("-p=", "--param="),
     "recipe steps": _looks(),
     "ruler": _looks("--along-beam"),
-    "runs list": _looks("--all"),
+    "runs list": _looks("--all", "--others"),
     "runs show": _looks("--frames"),
     "runs compare": _looks(),
     "runs pictures": _looks("--of=", "--width="),

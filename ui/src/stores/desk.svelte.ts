@@ -51,6 +51,8 @@ class Desk {
   log = $state.raw<Log | null>(null);
   diff = $state.raw<Diff | null>(null);
   runs = $state.raw<RunDocument[]>([]);
+  /** What others began at the bench, and is in no commit here. */
+  others = $state.raw<RunDocument[]>([]);
   lasers = $state.raw<Laser[]>([]);
   going = $state<Going | null>(null);
   /** What is wrong with the answer that was given last. */
@@ -106,8 +108,10 @@ class Desk {
   }
 
   async recorded(): Promise<void> {
-    const found = await this.read<{ schema: "pico.runs/v1"; runs: { document: RunDocument }[] }>("pico.runs/v1", "runs", "list", "--all");
-    if (found) this.runs = found.runs.map((one) => one.document);
+    const found = await this.read<{ schema: "pico.runs/v1"; runs: { document: RunDocument }[]; others: { document: RunDocument }[] }>("pico.runs/v1", "runs", "list", "--all", "--others");
+    if (!found) return;
+    this.runs = found.runs.map((one) => one.document);
+    this.others = found.others.map((one) => one.document);
   }
 
   /** Look at what lets lasers emit. */
