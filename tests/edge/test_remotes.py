@@ -15,6 +15,7 @@ from relaying import TOKEN, point, relayed
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.network.enrolment import Enrolment, read_enrolment
+from pico.edge.network.kept_gate import KeptGate
 from pico.edge.network.own_page import OwnPage
 from pico.edge.network.remotes import Remote, Remotes, added, address, chosen, keep, known, removed
 from pico.edge.network.tokens import keep_token, token_of, tokens_file
@@ -120,6 +121,13 @@ def test_what_a_killed_page_left_is_put_back_by_who_asks_next(lab: Path, word: s
     os.close(_paged(lab)._lock)
     _paged(lab).end()
     assert known(lab) == before
+
+
+def test_a_damaged_file_of_the_gate_is_said_with_what_to_do(tmp_path: Path) -> None:
+    (tmp_path / "gate.sqlite").write_text("no database, but a text that is longer than a header of one would be" * 4)
+    with pytest.raises(PicoError, match="it is damaged") as told:
+        KeptGate(tmp_path / "gate.sqlite")
+    assert "gate.sqlite.broken" in told.value.diagnostics[0].hint
 
 
 def test_a_token_is_kept_for_one_user_and_one_coordinator(monkeypatch: pytest.MonkeyPatch) -> None:

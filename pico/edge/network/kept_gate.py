@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from pico.control.gate import Command, Memory, Phase, Record
-from pico.diagnostics import PicoError
+from pico.diagnostics import PicoError, error
 from pico.disk import refusing, unwritable
 
 KEPT = 64
@@ -72,8 +72,11 @@ class KeptGate:
         try:
             yield
         except (sqlite3.Error, OSError) as exc:
-            why = refusing(self._path.parent) or exc
             what = f"what the edge lets through can't be kept in {self._path}"
+            if type(exc) is sqlite3.DatabaseError:  # such as: the file is no database
+                hint = f"move it away: `mv {self._path} {self._path}.broken`; the next lease begins it anew"
+                raise PicoError(error("gate", f"{what}: it is damaged ({exc})", hint=hint)) from exc
+            why = refusing(self._path.parent) or exc
             raise PicoError(unwritable(self._path, why, what=what, code="gate")) from exc
 
 
