@@ -109,16 +109,17 @@ class Granting:
         self.gate = replace(self.gate, memory=self.gate.memory.with_record(record))
         return answer
 
-    def ended(self, key: str, answer: Answer) -> None:
-        """Write what a command is answered, before anybody hears of it."""
-        self._write(gating.ended(self.gate, key, "done", json.dumps(answer)), key)
+    def ended(self, key: str, answer: Answer, *, durable: bool = True) -> None:
+        """Write what a command is answered, before anybody hears of it. Not `durable`: it outlives this process, and
+        after a power failure is found out again (`pico.edge.network.settling`)."""
+        self._write(gating.ended(self.gate, key, "done", json.dumps(answer)), key, durable=durable)
 
     def declared(self, seconds: float) -> None:
         """Let what runs go on for so long beyond its lease, where the coordinator is away [s]."""
         self.gate = gating.declared(self.gate, seconds)
 
-    def _write(self, after: Gate, key: str) -> None:
-        self._kept.write(after.memory.records[key])
+    def _write(self, after: Gate, key: str, *, durable: bool = True) -> None:
+        self._kept.write(after.memory.records[key], durable=durable)
         self.gate = after
 
     @property

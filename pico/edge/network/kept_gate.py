@@ -56,12 +56,15 @@ class KeptGate:
             self._db.execute("DELETE FROM commands WHERE token < ? AND phase != 'unknown'", (token - KEPT,))
             self._db.execute("COMMIT")
 
-    def write(self, record: Record) -> None:
-        """Keep what became of a command."""
+    def write(self, record: Record, *, durable: bool = True) -> None:
+        """Keep what became of a command; not `durable`: on the disk with the next one that is, for the log is written
+        in order."""
         command = record.command
         row = (command.key, command.token, command.seq, command.digest, record.phase, record.result)
         with self._guarded():
+            self._db.execute(f"PRAGMA synchronous={'FULL' if durable else 'NORMAL'}")
             self._db.execute("INSERT OR REPLACE INTO commands VALUES (?, ?, ?, ?, ?, ?)", row)
+            self._db.execute("PRAGMA synchronous=FULL")
 
     def close(self) -> None:
         """Let go of the file."""

@@ -158,7 +158,8 @@ class Uplink:
             await self._poll(link)
             with suppress(TimeoutError):
                 async with asyncio.timeout(messages.POLL):
-                    await self._news.wait()
+                    while not self._news.is_set():  # what an answer has told of already is no news any more
+                        await self._news.wait()
 
     async def _poll(self, link: ClientConnection) -> None:
         number = self._number = self._number + 1
@@ -291,8 +292,9 @@ class Uplink:
             self._run = (str(answer["value"]), key, arguments[0].within is not None)
             self.granting.declared(offline(self._edge.setup, arguments[0].plan))
         else:
-            self.granting.ended(key, answer)
-        self._news.set()
+            self.granting.ended(key, answer, durable=name != "execute")  # of an operation the journal has it
+        if name != "execute":  # which changes nothing that the coordinator goes by before the next question
+            self._news.set()
 
     async def _over(self) -> None:
         """End the command whose run is over."""

@@ -275,7 +275,7 @@ class Dispatcher:
         key, digest = _key(call, grant.token), content(call.name, call.arguments)
         said = {"call": call.name, "with": call.arguments, "by": _by(call), "id": call.id}
         rows = self.rows
-        row = await self._books.do(
+        row = await self._books.look(rows.ended, call.bench, key, digest) or await self._books.do(
             rows.submitted, call.bench, grant.token, key, digest, json.dumps(said, separators=(",", ":"))
         )  # fmt: skip
         if row.state != "waiting":

@@ -65,14 +65,22 @@ class CommandRows:
                 connection.execute(insert(commands), {**values, "state": row.state, "call": call, "asked_at": now})
             return row
 
+    def ended(self, bench: str, key: str, digest: str) -> Row | None:
+        """Return the row of a command that has its end, None where there is none with this content: for that nothing
+        needs to be written."""
+        with self._database.reading() as connection:
+            row = _known(connection, bench, key)
+            return row if row and row.command.digest == digest and row.state not in OPEN else None
+
     def last(self, bench: str, token: int) -> int:
         """Return the number of the last command of a lease, 0 where there is none."""
         with self._database.reading() as connection:
             return _last(connection, bench, token)
 
     def answered(self, bench: str, key: str, record: Record) -> Row:
-        """Write what the edge says of a command, and return its row."""
-        with self._database.writing() as connection:
+        """Write what the edge says of a command, and return its row. The edge has it on its disk, and says it again
+        whenever it connects."""
+        with self._database.writing(durable=False) as connection:
             before = _known(connection, bench, key)
             assert before is not None
             after = control.answered(Commands({key: before}), record)

@@ -27,7 +27,8 @@ class Database:
         self._clock = clock
         self.local = make_url(url).get_backend_name() == "sqlite"
         self._engine = _opened(url, self.local)
-        self._writer = self._engine.execution_options(pico_writes=True)
+        self._writer = self._engine.execution_options(pico_writes="FULL")
+        self._lazy = self._engine.execution_options(pico_writes="NORMAL")
         metadata.create_all(self._writer)
         self._widen()
 
@@ -38,9 +39,12 @@ class Database:
             yield connection
 
     @contextmanager
-    def writing(self) -> Iterator[Connection]:
-        """Write all or nothing: durable once the block has ended, undone where it raises."""
-        with self._writer.begin() as connection:
+    def writing(self, *, durable: bool = True) -> Iterator[Connection]:
+        """Write all or nothing: durable once the block has ended, undone where it raises. Not `durable`: it outlives
+        this process, and a power failure once something later is durable; for what others know, and say again."""
+        with (self._writer if durable else self._lazy).begin() as connection:
+            if not durable and not self.local:
+                connection.exec_driver_sql("SET LOCAL synchronous_commit = off")
             yield connection
 
     def _widen(self) -> None:
@@ -76,12 +80,13 @@ def _opened(url: str, local: bool) -> Engine:
     @event.listens_for(engine, "connect")
     def durable(connection: Any, _record: Any) -> None:
         connection.isolation_level = None  # transactions begin as said below, not as the driver thinks
-        for pragma in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON", "busy_timeout = 10000"):
+        for pragma in ("journal_mode = WAL", "foreign_keys = ON", "busy_timeout = 10000"):
             connection.execute(f"PRAGMA {pragma}")
 
     @event.listens_for(engine, "begin")
     def begin(connection: Connection) -> None:
-        writes = connection.get_execution_options().get("pico_writes")
+        if writes := connection.get_execution_options().get("pico_writes"):
+            connection.exec_driver_sql(f"PRAGMA synchronous = {writes}")
         connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
     return engine
