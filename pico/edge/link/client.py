@@ -35,10 +35,11 @@ if TYPE_CHECKING:
 
 class RemoteMemory:
     """What the bench remembers; see `pico.runs.memory.Memory`. What it said of runs that are done stays as it is, and
-    is asked for once: `done` holds that."""
+    is asked for once."""
 
-    def __init__(self, line: Line, done: dict[str, tuple[JournalRecord, ...] | None]) -> None:
-        self._line, self._done = line, done
+    def __init__(self, line: Line) -> None:
+        self._line = line
+        self._done: dict[str, tuple[JournalRecord, ...] | None] = {}
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
@@ -162,7 +163,7 @@ class RemoteEdge:
 
     def __init__(self, line: Line) -> None:
         self._line = line
-        self._done: dict[str, tuple[JournalRecord, ...] | None] = {}
+        self._memory: RemoteMemory | None = None
         self._held: dict[int, Callable[[], None]] = {}
         self._kept: dict[str, Callable[[], None]] = {}
 
@@ -324,7 +325,9 @@ class RemoteEdge:
     @property
     def memory(self) -> RemoteMemory | None:
         """What the bench remembers of its runs; None where there was none yet."""
-        return RemoteMemory(self._line, self._done) if self._line.call("memory") else None
+        if self._memory is None and self._line.call("memory"):
+            self._memory = RemoteMemory(self._line)
+        return self._memory
 
     async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
         """Record what a person says of an operation that only a person can tell the end of."""

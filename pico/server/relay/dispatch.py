@@ -275,9 +275,10 @@ class Dispatcher:
         key, digest = _key(call, grant.token), content(call.name, call.arguments)
         said = {"call": call.name, "with": call.arguments, "by": _by(call), "id": call.id}
         rows = self.rows
-        row = await self._books.look(rows.ended, call.bench, key, digest) or await self._books.do(
-            rows.submitted, call.bench, grant.token, key, digest, json.dumps(said, separators=(",", ":"))
-        )  # fmt: skip
+        row = await self._books.look(rows.ended, call.bench, key, digest)
+        if row is None:
+            text = json.dumps(said, separators=(",", ":"))
+            row = await self._books.do(rows.submitted, call.bench, grant.token, key, digest, text)
         if row.state != "waiting":
             return json.loads(row.result) if row.result else wire.failure(PicoError(_over(call.bench, grant.token)))
         call.reached = True

@@ -6,19 +6,16 @@ import asyncio
 from contextlib import suppress
 from typing import Annotated, Any
 
-from fastapi import APIRouter, Query, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Query, WebSocket
 
-from pico.diagnostics import PicoError
-from pico.server.guard.saying import failure
 from pico.server.routes.admitting import Admitted, admit, books
+from pico.server.routes.lasting import lasting, left
 from pico.server.store.books import Books
 from pico.server.store.ordered import read_events, where
 
 router = APIRouter(prefix="/api")
 GLANCE = 1.0
 """How often events are looked for that another coordinator wrote [s]."""
-OVER = 4401
-"""Code with which a socket is closed whose token is over."""
 
 
 @router.websocket("/events")
@@ -35,40 +32,23 @@ async def events(socket: WebSocket, since: Annotated[int, Query(ge=0, le=2**53)]
     news = asyncio.Event()
     end = held.listen_events(news.set)
     await socket.accept()
-    leaving = asyncio.create_task(_left(socket))
-    telling = asyncio.create_task(_tell(socket, admitted, held, since, news))
     try:
-        await asyncio.wait([leaving, telling], return_when=asyncio.FIRST_COMPLETED)
+        await lasting(socket, admitted, left(socket), _tell(socket, admitted, held, since, news))
     finally:
         end()
-        for task in (leaving, telling):
-            task.cancel()
-        await asyncio.gather(leaving, telling, return_exceptions=True)
-
-
-async def _left(socket: WebSocket) -> None:
-    """Wait until a socket is closed; what it says meanwhile counts for nothing."""
-    while (await socket.receive())["type"] != "websocket.disconnect":
-        pass
 
 
 async def _tell(socket: WebSocket, admitted: Admitted, held: Books, since: int, news: asyncio.Event) -> None:
-    with suppress(WebSocketDisconnect, RuntimeError):
-        try:
-            await socket.send_json({"hello": await held.do(_hello, held)})
-            while True:
-                news.clear()
-                for event in await held.look(_after, held, since):
-                    since = event["number"]
-                    if admitted.principal().sees(event["bench"].partition("/")[0]):
-                        await socket.send_json(event)
-                admitted.principal()
-                with suppress(TimeoutError):
-                    async with asyncio.timeout(GLANCE):
-                        await news.wait()
-        except PicoError as exc:
-            await socket.send_json(failure(exc))
-            await socket.close(OVER)
+    await socket.send_json({"hello": await held.do(_hello, held)})
+    while True:
+        news.clear()
+        for event in await held.look(_after, held, since):
+            since = event["number"]
+            if admitted.principal().sees(event["bench"].partition("/")[0]):
+                await socket.send_json(event)
+        with suppress(TimeoutError):
+            async with asyncio.timeout(GLANCE):
+                await news.wait()
 
 
 def _hello(held: Books) -> dict[str, Any]:

@@ -16,13 +16,12 @@ from pico.edge.network import messages
 from pico.server.guard.gatekeeper import BODY, LONG_BODY
 from pico.server.relay.dispatch import Call, Dispatcher
 from pico.server.relay.hub import Gone
-from pico.server.routes.admitting import FRESH, Admitted, admit, books, refusal, routed
+from pico.server.routes.admitting import Admitted, admit, books, refusal, routed
+from pico.server.routes.lasting import lasting
 
 router = routed()
 MANY = 64
 """Calls of one socket at a time."""
-OVER, BROKEN = 4401, 4400
-"""With which a socket is closed whose token is over, and one that says what nobody reads."""
 LONG = ("start", "open", "adopt", "world.put")
 """Calls that carry a plan or a lab, and may be longer than others."""
 
@@ -40,21 +39,9 @@ async def link(socket: WebSocket, lab: str, bench: str) -> None:
         return
     await socket.accept()
     client = _Client(socket, admitted, f"{lab}/{bench}")
-    tasks = [asyncio.create_task(client.serve()), asyncio.create_task(client.known())]
     try:
-        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        for task in done:
-            task.result()
-    except PicoError as exc:
-        with suppress(RuntimeError, WebSocketDisconnect):
-            await socket.send_text(messages.text(wire.failure(exc)))
-            await socket.close(OVER if exc.diagnostics[0].code == "unauthenticated" else BROKEN)
-    except (WebSocketDisconnect, RuntimeError, KeyError):
-        pass
+        await lasting(socket, admitted, client.serve())
     finally:
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
         await asyncio.shield(client.gone())
 
 
@@ -86,12 +73,6 @@ class _Client:
                 self._close(number)
             else:
                 await self._called(number, said)
-
-    async def known(self) -> None:
-        """Raise PicoError once the token is over, also where nothing is said."""
-        while True:
-            await asyncio.sleep(FRESH)
-            self._admitted.principal()
 
     async def _received(self) -> str:
         message = await self._socket.receive()

@@ -2,24 +2,19 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
-from contextlib import suppress
 from typing import Any
 
 from fastapi import Request, WebSocket
-from starlette.websockets import WebSocketDisconnect
 
 import pico
 from pico.diagnostics import PicoError, error
-from pico.server.guard.saying import failure
 from pico.server.live.watcher import Watcher
 from pico.server.live.watching import Watched, Watching
-from pico.server.routes.admitting import FRESH, Admitted, admit, books, needs, refusal, routed
+from pico.server.routes.admitting import Admitted, admit, books, needs, refusal, routed
+from pico.server.routes.lasting import lasting, left
 
 router = routed()
-OVER, BEHIND = 4401, 4408
-"""With which a socket is closed whose token is over, and one that does not take what it is told."""
 
 
 @router.get("/benches/{lab}/{bench}/scene", **needs("viewer"))
@@ -58,36 +53,10 @@ async def _watch(socket: WebSocket, admitted: Admitted, watched: Watched) -> Non
     if watched.shown is not None:
         watcher.show(watched.shown.whole(), watched.shown.whole)
     watched.watchers.add(watcher)
-    tasks = [asyncio.create_task(_left(socket)), asyncio.create_task(_told(socket, watcher)),
-             asyncio.create_task(_known(admitted))]  # fmt: skip
     try:
-        done, _ = await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        for task in done:
-            task.result()
-    except PicoError as exc:
-        with suppress(RuntimeError, WebSocketDisconnect):
-            await socket.send_text(json.dumps(failure(exc)))
-            await socket.close(BEHIND if watcher.lost else OVER)
-    except (WebSocketDisconnect, RuntimeError):
-        pass
+        await lasting(socket, admitted, left(socket), _told(socket, watcher))
     finally:
         watched.watchers.discard(watcher)
-        for task in tasks:
-            task.cancel()
-        await asyncio.gather(*tasks, return_exceptions=True)
-
-
-async def _left(socket: WebSocket) -> None:
-    """Wait until a socket is closed; what it says meanwhile counts for nothing."""
-    while (await socket.receive())["type"] != "websocket.disconnect":
-        pass
-
-
-async def _known(admitted: Admitted) -> None:
-    """Raise PicoError once the token is over, or may watch no more."""
-    while True:
-        await asyncio.sleep(FRESH)
-        admitted.principal()
 
 
 async def _told(socket: WebSocket, watcher: Watcher) -> None:
