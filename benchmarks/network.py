@@ -6,8 +6,9 @@ that is stolen takes to be fenced for, the share of a core that the coordinator 
 second and renew a lease each every two, the rate at which 20 clients are sent frames of a bench that moves all the
 time, and what one and three of them cost the coordinator. Beside it what a plain echo over a socket and a flush of the
 disk take then, and the trips with all files in memory: what they take there is the programs' own. A busy machine is
-slower at all of it (as root, `chrt -f 10 python benchmarks/network.py` keeps what else runs there out of the figures). Exit code 3 where a figure misses its bar (p99 of a call that is relayed and of a
-command that is known 5 ms, of stealing 0.5 s, half a core, 30 Hz, 3 % and 6 % of a core), 1 where an answer is wrong.
+slower at all of it (as root, `chrt -f 10 python benchmarks/network.py` keeps what else runs there out of the figures).
+Exit code 3 where a figure misses its bar (p99 of a call that is relayed and of a command that is known 5 ms, of
+stealing 0.5 s, half a core, 30 Hz, 3 % and 6 % of a core), 1 where an answer is wrong.
 """
 
 from __future__ import annotations

@@ -21,6 +21,7 @@ class Progress:
         self.titles = {op.id: f"{op.address} {what(op, change_of(plan, op))}" for op in plan.operations}
         self.names = max(map(width, self.titles.values()), default=0)
         self.began: float | None = None
+        self.started: dict[str, float] = {}
 
     def line(self, event: Event) -> str:
         """Return the line that stays after an event; empty for none."""
@@ -49,9 +50,12 @@ class Progress:
         if op is None or event.kind not in ("operation_started", "operation_progress"):
             return ""
         self.began = event.time if self.began is None else self.began
-        done = float(event.data.get("fraction", 0.0)) * op.seconds
+        if event.kind == "operation_started":
+            self.started[op.id] = event.time
+        took = event.time - self.started.get(op.id, event.time)
         phase, passed = event.data.get("phase", ""), event.time - self.began
-        tail = f"{done:5.1f} / {op.seconds:.1f} s  {phase:8}  {passed:.0f} s in all"
+        beside = f"{took:5.1f} of about {op.seconds:.1f} s"
+        tail = f"{paint('yellow', beside) if op.is_late(took) else beside}  {phase:8}  {passed:.0f} s in all"
         return shorten(f"  {paint('cyan', '▸')} {self._head(event)}  {tail}".rstrip(), wide())
 
     def _head(self, event: Event) -> str:
@@ -63,6 +67,9 @@ class Progress:
         data = event.data
         if event.kind == "operation_done":
             took = f"{seconds(float(data['seconds'])):>7}" if "seconds" in data else ""
+            op = self.operations[event.operation or ""]
+            if op.is_late(float(data.get("seconds", 0.0))):
+                took += paint("yellow", f" of about {seconds(op.seconds)}")
             said = measured.line(data["measurement"]) if "measurement" in data else measured.ranged(data)
             said = placement(data) if "error_mm" in data else sought(data) if "algorithm" in data else said
             return took + (f"   {said}" if said else "")

@@ -20,11 +20,6 @@ from pico.model.trace.event import Event
 from pico.model.trace.expectation import Expected, GoalRead, goal_read
 from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 
-OPEN = frozenset({"optimize", "operator", "teleoperate"})
-"""What takes as long as light or a person does."""
-SLOW, SLACK = 1.5, 2.0
-"""An operation is told to be slow that took so many times as long as foretold, and so much more [s]."""
-
 
 def run_report(
     setup: Setup, plan: Plan, events: Sequence[Event], seen: Observation, *, wall: float, able: Capabilities
@@ -60,6 +55,7 @@ def run_report(
         goals=tuple(goal for goal, _ in goals) or None,
         aligning=_aligning(plan, events),
         read=tuple(_read(plan, events)) or None,
+        off=_off(events),
         diagnostics=(
             *told_by(events),
             *_left_set(setup, plan, events, seen),
@@ -107,6 +103,16 @@ def _read(plan: Plan, events: Sequence[Event]) -> Iterator[GoalRead]:
             yield goal_read(op.arguments, event.data if event.kind == "operation_done" else failed)
 
 
+def _off(events: Sequence[Event]) -> Mapping[str, str | float] | None:
+    """Return how far at most parts were seen to stand from where they were to be placed; None where none was."""
+    placed = [e for e in events if e.kind == "operation_done" and "error_mm" in e.data]
+    if not placed:
+        return None
+    farthest = max(placed, key=lambda e: float(e.data["error_mm"]))
+    turned = max(float(e.data.get("error_deg") or 0.0) for e in placed)
+    return {"part": farthest.component or "", "mm": float(farthest.data["error_mm"]), "deg": turned}
+
+
 def _aligning(plan: Plan, events: Sequence[Event]) -> float | None:
     """Return how long the operations took that were there to bring light back [s]; None where there were none."""
     there = {op.id for op in plan.operations if op.aligns}
@@ -127,11 +133,11 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
 
 
 def _later(plan: Plan, events: Sequence[Event]) -> Iterator[Diagnostic]:
-    """Yield what took notably longer than the plan foretold, but for what is OPEN."""
-    foretold = {op.id: op for op in plan.operations if op.seconds > 0 and not (op.aligns or op.primitive in OPEN)}
+    """Yield what took notably longer than the plan foretold."""
+    operations = {op.id: op for op in plan.operations}
     for event in events:
-        op, took = foretold.get(event.operation or ""), float(event.data.get("seconds") or 0.0)
-        if op is None or event.kind != "operation_done" or took <= SLOW * op.seconds + SLACK:
+        op, took = operations.get(event.operation or ""), float(event.data.get("seconds") or 0.0)
+        if op is None or event.kind != "operation_done" or not op.is_late(took):
             continue
         text = f"{op.primitive} {op.address} took {took:.1f} s, and {op.seconds:.1f} s was foretold"
         hint = "`pico runs show` has each operation beside its forecast; does something drag, or was it tried again?"

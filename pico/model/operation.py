@@ -26,6 +26,11 @@ ReasonKind = Literal[
     "align",
 ]
 
+OPEN = frozenset({"optimize", "operator", "teleoperate"})
+"""Primitives that take as long as light or a person does."""
+SLOW, SLACK = 1.5, 2.0
+"""An operation is late that takes so many times as long as foretold, and so much more [s]."""
+
 
 @record
 class Reason:
@@ -97,6 +102,12 @@ class Operation:
         """Whether it is there to bring light back: a goal is sought, what that needs is set and set back, and what a
         commit recorded is measured."""
         return self.reason.kind == "align" or (self.reason.kind == "interlock" and bool(self.reason.of))
+
+    def is_late(self, took: float) -> bool:
+        """Whether it takes notably longer than foretold once it has taken so long [s]; what light or a person takes is
+        open."""
+        foretold = self.seconds > 0 and not (self.aligns or self.primitive in OPEN)
+        return foretold and took > SLOW * self.seconds + SLACK
 
     @property
     def address(self) -> str:

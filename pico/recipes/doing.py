@@ -95,7 +95,8 @@ class Doing:
         came = attend(run, self.show, self.say)
         report = run.report
         if came or report.exit_code == ExitCode.INTERRUPTED:
-            raise PicoError(error("interrupted", f"interrupted at step {self.step}"), ExitCode.INTERRUPTED)
+            why = [found for found in report.diagnostics if found.severity != "note"]
+            raise PicoError([error("interrupted", f"interrupted at step {self.step}"), *why], ExitCode.INTERRUPTED)
         return require_done(report).measurements
 
     def pause(self, seconds: float) -> None:

@@ -6,7 +6,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from pico_cli.views.run import Progress
-from pico_cli.views.style import plain
+from pico_cli.views.style import paint, plain
 
 from pico.model.operation import Operation, Reason
 from pico.model.trace.event import Event
@@ -33,8 +33,18 @@ def test_it_names_the_operation_its_phase_and_the_time_simulated_so_far() -> Non
     progress.live(event("operation_started", 100.0))
     line = plain(progress.live(event("operation_progress", 143.2, fraction=0.5, phase="transit")))
     assert "1/1 p1" in line
-    assert "5.0 / 10.0 s" in line
+    assert "43.2 of about 10.0 s" in line
     assert line.endswith("transit   43 s in all")
+
+
+def test_an_operation_stands_beside_what_was_foretold_and_is_marked_once_it_is_late() -> None:
+    progress = Progress(SimpleNamespace(operations=[asked("op1")], changes=[]))  # type: ignore[arg-type]
+    progress.live(event("operation_started", 100.0))
+    late = paint("yellow", " 17.1 of about 10.0 s")
+    assert late not in progress.live(event("operation_progress", 117.0)) and late != plain(late)
+    assert late in progress.live(event("operation_progress", 117.1))
+    assert "of about" not in plain(progress.line(event("operation_done", 117.0, seconds=17.0)))
+    assert "17.1 s of about 10.0 s" in plain(progress.line(event("operation_done", 117.1, seconds=17.1)))
 
 
 def test_the_count_rises_line_by_line_though_operations_run_beside_one_another() -> None:

@@ -237,6 +237,17 @@ def test_a_slow_reader_changes_nothing(tmp_path: Path) -> None:
     assert asyncio.run(read("quick", 0)) == asyncio.run(read("slow", 50))
 
 
+def test_a_report_tells_how_far_from_their_goals_parts_were_placed(bench: LocalEdge) -> None:
+    _, _, events = apply(bench, C3)
+    report, placed = asyncio.run(bench.report("r1")), [e for e in events if "error_mm" in e.data]
+    assert report.off is not None and len(placed) > 1
+    assert report.off["mm"] == max(e.data["error_mm"] for e in placed)
+    assert report.off["deg"] == max(e.data["error_deg"] for e in placed)
+    assert report.off["part"] in {e.component for e in placed}
+    again, _, _ = apply(bench, C3, "r2")
+    assert not again.operations and asyncio.run(bench.report("r2")).off is None
+
+
 def test_halt_lets_the_move_end_and_stop_leaves_the_part_in_the_gripper(tmp_path: Path) -> None:
     def carrying(event: Event) -> bool:
         return event.kind == "operation_progress" and event.data["phase"] == "transit"

@@ -18,8 +18,9 @@ EventKind = Literal[
 class Event:
     """One event. `time` is the backend's clock [s]; `data` depends on the kind:
 
-    `operation_progress`: `phase`, `fraction` (0 to 1), `pose` of the carried part; `operation_done`: `error_mm`,
-    `error_deg` of a placement, `measurement`, `seconds`; `operation_failed` and `operation_unknown`: `diagnostic`;
+    `operation_started`: `primitive`, `seconds` that its plan foretells; `operation_progress`: `phase`, `fraction` (0 to
+    1), `pose` of the carried part; `operation_done`: `error_mm`, `error_deg` of a placement, `measurement`,
+    `seconds`; `operation_failed` and `operation_unknown`: `diagnostic`;
     `operation_retried`: `attempt` that follows, `diagnostic` of the one that failed; `operation_skipped`: `because` (an
     operation's id), or `interrupted`, or `stopped` (after an error); `run_finished`: `done`,
     `failed`, `skipped`, `seconds`.

@@ -45,7 +45,8 @@ class RunReport:
     the bench after a whole run. `measurements`: what was measured, by address; `goals`: those that were sought,
     `aligning`: what all that was there to bring light back took [s]; `read`: those that were measured where they stand.
     `evidence`: what the run counts as.
-    `by_light`: set-points that light has yet to find.
+    `by_light`: set-points that light has yet to find. `off`: how far parts that were placed stand from where the plan
+    has them, at most: `mm` and `deg`, of which `part` stands farthest off.
     """
 
     schema: str = "pico.report/v1"
@@ -72,6 +73,7 @@ class RunReport:
     goals: tuple[GoalEnd, ...] | None = None
     aligning: float | None = None
     read: tuple[GoalRead, ...] | None = None
+    off: Mapping[str, str | float] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     def __repr__(self) -> str:

@@ -11,7 +11,7 @@ import { session } from "./session.svelte";
 import { told } from "./told.svelte";
 
 /** One step of what is under way. */
-export interface Step { state: "waiting" | "going" | "done" | "failed" | "unknown"; fraction: number; phase: string }
+export interface Step { state: "waiting" | "going" | "done" | "failed" | "unknown"; fraction: number; phase: string; /** By the bench's clock [s]. */ began?: number; took?: number }
 
 export interface Going {
   words: string[];
@@ -260,10 +260,11 @@ export function heard(going: Going, said: Said): void {
     going.events.push(event);
     const step = event.operation ? (going.steps[event.operation] ??= { state: "waiting", fraction: 0, phase: "" }) : null;
     if (!step) return;
-    if (event.kind === "operation_started") step.state = "going";
+    if (event.kind === "operation_started") Object.assign(step, { state: "going", began: event.time });
     else if (event.kind === "operation_progress") {
       step.fraction = Number(event.data.fraction ?? 0);
       step.phase = String(event.data.phase ?? "");
+      step.took = event.time - (step.began ?? event.time);
     } else if (event.kind === "operation_done") Object.assign(step, { state: "done", fraction: 1, phase: "" });
     else if (event.kind === "operation_failed") step.state = "failed";
     else if (event.kind === "operation_unknown") step.state = "unknown";

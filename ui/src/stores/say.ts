@@ -87,6 +87,12 @@ export function seconds(value: number): string {
   return `${Math.floor(whole / 60)} min ${whole % 60} s`;
 }
 
+/** Whether an operation takes notably longer than foretold, as reports have it; what light or a person takes is open. */
+export function late(one: Operation, took: number): boolean {
+  const open = ["optimize", "operator", "teleoperate"].includes(one.primitive) || one.reason.kind === "align" || (one.reason.kind === "interlock" && one.reason.of.length > 0);
+  return one.seconds > 0 && !open && took > 1.5 * one.seconds + 2;
+}
+
 /** When, as this place has it: `26 Nov 09:03`. */
 export function when(iso: string): string {
   return new Date(iso).toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
