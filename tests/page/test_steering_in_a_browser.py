@@ -22,8 +22,8 @@ WITHIN, QUIET = 0.2, 0.6
 JUST = 0.5
 """Seconds before the end of a hold in which something moved."""
 WAYS = {"key", "blur", "hidden", "minimized", "cut", "silent", "killed"}
-"""Whatever ends a hold: the key goes up; the window is told that it lost the focus; another tab is in front; the window is minimized;
-the line is cut, or says nothing more; the page's process is killed."""
+"""Whatever ends a hold: the key goes up; the window is told that it lost the focus; another tab is in front; the window
+is minimized; the line is cut, or says nothing more; the page's process is killed."""
 LONGEST = 400.0
 """Seconds after which the browser is ended."""
 

@@ -3,6 +3,7 @@
 import type { RunDocument, Status, StatusRow } from "../api/documents";
 import type { Scene } from "../twin/scene";
 import type { Query, Tab } from "./address.svelte";
+import { entitled } from "./say";
 
 export interface Need {
   tone: "bad" | "warn";
@@ -48,7 +49,7 @@ export function needs({ status, scene, runs, line, edge, busy, asks }: Known): N
   }
   const last = runs[0];
   if (last && !["", "done"].includes(last.outcome))
-    found.push({ tone: "bad", text: `Run ${last.number} (${last.cause.kind} ${last.goal}) ended: ${last.outcome}`, mend: "look at the run", to: { tab: "runs", query: { run: last.id } } });
+    found.push({ tone: "bad", text: `Run ${last.number} (${entitled(last)}) ended: ${last.outcome}`, mend: "look at the run", to: { tab: "runs", query: { run: last.id } } });
   const off = rows.filter((row) => row.off && !row.note);
   const kinds: [StatusRow[], (rows: StatusRow[]) => string][] = [
     [off.filter(byLight), (some) => `${count(some.length, "goal")} found by light ${some.length === 1 ? "is" : "are"} not reached any more`],

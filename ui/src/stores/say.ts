@@ -97,3 +97,8 @@ export function late(one: Operation, took: number): boolean {
 export function when(iso: string): string {
   return new Date(iso).toLocaleString(undefined, { day: "numeric", month: "short", hour: "2-digit", minute: "2-digit" });
 }
+
+/** What a run was for: `apply e1`, `p2.angle to 30 deg`. */
+export function entitled({ cause, goal }: { cause: { kind: string }; goal: string }): string {
+  return ["single", "teleoperation"].includes(cause.kind) ? goal : `${cause.kind} ${goal}`;
+}

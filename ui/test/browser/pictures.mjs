@@ -2,7 +2,8 @@
  * A picture of every page and state, at three widths, light and dark, in Chromium:
  *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME | =NAME | --documented]
  * ADDRESS is what `pico gui` told, of a lab that stands at E1-3 (shel), with a branch `impossible` on which two parts
- * stand in each other. `--documented`: the pictures of the documentation alone. Says which buttons and words are cut.
+ * stand in each other. `--documented`: the pictures of the documentation alone; WIDTHS=1000,420: at these widths alone.
+ * Says which buttons and words are cut.
  */
 import { mkdirSync } from "node:fs";
 import { FLAGS, opened, relayed } from "./driving.mjs";
@@ -37,7 +38,7 @@ async function byHand() {
 /** What is looked at: where, what is done there first, and what is put back afterwards; up to which width. */
 const STATES = {
   inspect: ["inspect?part=p2"],
-  "inspect-none": ["inspect"],
+  "inspect-none": ["inspect?part="],
   edit: ["inspect?part=p2", () => press("Edit pose", panel)],
   "edit-value": ["inspect?part=cam", () => press("Edit exposure", panel)],
   "by-hand": ["inspect?part=p2", async () => {
@@ -66,11 +67,6 @@ const STATES = {
   compare: ["history?from=E1-3&to=E2-3", () => seen(/^E1-3 → E2-3/)],
   "check-out": ["history?to=E2-3", async () => { await press("Check out …", panel); await dialog.getByText(/operations/).first().waitFor(); }],
   runs: ["runs", async () => { await panel.locator("[data-row]").first().click(); await panel.getByRole("heading", { name: "Steps" }).waitFor(); }],
-  "runs-compared": ["runs", async () => {
-    await panel.locator("[data-row]").first().click();
-    await panel.getByLabel("Compare with").selectOption({ index: 1 });
-    await panel.getByText("Comparing").waitFor({ state: "detached" });
-  }],
   replay: ["runs", async () => {
     await panel.locator("[data-row]").first().click();
     await press("Replay in the twin", panel);
@@ -83,10 +79,15 @@ const STATES = {
     await panel.getByText("still", { exact: true }).waitFor();
   }, () => press("Done", panel)],
   steered: ["do?act=steer&part=p2", () => panel.getByLabel("What it came to").waitFor()],
+  "runs-compared": ["runs", async () => {
+    await panel.locator("[data-row]").first().click();
+    await panel.getByLabel("Compare with").selectOption({ index: 1 });
+    await panel.getByText("Comparing").waitFor({ state: "detached" });
+  }],
   measure: ["do?act=measure", () => panel.locator(".picture").waitFor()],
   optimize: ["do?act=optimize", () => press("Look ahead", panel)],
   recipes: ["do?act=recipes"],
-  recipe: ["do?act=recipes", async () => { await panel.locator("[data-row], li button").first().click(); await press("Check", panel); await panel.getByLabel("Steps").locator("li").first().waitFor(); }],
+  recipe: ["do?act=recipes", async () => { await panel.locator("[data-row], li button").first().click(); await press("Check", panel); await panel.getByLabel("Steps").locator("li").first().waitFor({ timeout: 120_000 }); }],
   palette: ["inspect", () => page.keyboard.press("Control+k")],
   "palette-found": ["inspect", async () => { await page.keyboard.press("Control+k"); await dialog.getByRole("textbox").fill("push"); }],
   lease: ["inspect", () => page.getByTitle("Who has the bench").click()],
@@ -128,7 +129,7 @@ async function planApplied() {
   await page.evaluate((hash) => { location.hash = hash; }, `#/${bench}/plan?rev=e2`);
   await planned();
   await press("Apply …");
-  await press("Apply", dialog);
+  await dialog.getByRole("button", { name: "Apply", exact: true }).click();
   await page.getByRole("button", { name: "Halt" }).waitFor();
 }
 
@@ -164,7 +165,7 @@ async function shot(name, file, wait, [where, work, after], themes = ["light"]) 
   for (const theme of themes) {
     await page.evaluate((wanted) => { document.documentElement.dataset.theme = wanted; }, theme);
     await page.waitForTimeout(150);
-    await page.screenshot({ path: `${folder}/${file}${themes.length > 1 ? `-${theme}` : ""}.png` });
+    await page.screenshot({ path: `${folder}/${file}${themes.length > 1 ? `-${theme}` : ""}.png` }).catch((failure) => console.log(`${name}: ${failure}`));
   }
   const wrong = await faults();
   await after?.().catch((failure) => console.log(`after ${name}: ${String(failure).split("\n")[0]}`));
@@ -182,9 +183,9 @@ if (only === "--documented") {
   process.exit();
 }
 
-page.setDefaultTimeout(12_000);
+page.setDefaultTimeout(25_000);
 const chosen = Object.entries(STATES).filter(([name]) => (only.startsWith("=") ? `=${name}` === only : name.includes(only)));
-for (const width of [1440, 1000, 420]) {
+for (const width of (process.env.WIDTHS ?? "1440,1000,420").split(",").map(Number)) {
   await page.setViewportSize({ width, height: width === 420 ? 860 : 900 });
   for (const [name, state] of chosen) {
     if (width > (state[3] ?? 9999)) continue;
