@@ -163,8 +163,8 @@ async function shot(name, file, wait, [where, work, after], themes = ["light"]) 
   }
   await page.waitForTimeout(wait);
   for (const theme of themes) {
-    await page.evaluate((wanted) => { document.documentElement.dataset.theme = wanted; }, theme);
-    await page.waitForTimeout(150);
+    await page.evaluate((other) => document.querySelector(`header [aria-label="${other} colours"]`)?.click(), theme === "dark" ? "Dark" : "Light");
+    await page.waitForTimeout(300);
     await page.screenshot({ path: `${folder}/${file}${themes.length > 1 ? `-${theme}` : ""}.png` }).catch((failure) => console.log(`${name}: ${failure}`));
   }
   const wrong = await faults();
