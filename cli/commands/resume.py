@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import typer
 
-from ..arguments import Fidelity, LockTimeout, StopOnError, Yes
+from ..arguments import Fidelity, LockTimeout, Speed, StopOnError, Yes
 from ..runs.approving import approve
 from ..session import Session
 
@@ -13,19 +13,20 @@ def resume(
     context: typer.Context,
     auto_approve: Yes = False,
     fidelity: Fidelity = None,
+    speed: Speed = None,
     stop_on_error: StopOnError = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Take up the last run again, which was cut short, failed or killed.
 
     It plans anew, from what stands on the table now to the goal of that run: nothing that is done is done again. What
-    a hand still holds is set down first.
+    a hand still holds is set down first. At the lab's speed: that of a run which was told another one is said again.
 
     Examples:
       pico resume
       pico resume --stop-on-error
     """
     session = Session.of(context)
-    bench = session.bench(fidelity, writing=True)
+    bench = session.bench(fidelity, speed, writing=True)
     plan, run = bench.recovery.resume_plan()
     return approve(session, bench, plan, auto_approve, resumes=run, stop_on_error=stop_on_error)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import json
 from pathlib import Path
 
 import pytest
@@ -108,6 +109,13 @@ def test_one_rule_says_what_is_asked_about(shel: Path, pico: Pico, monkeypatch: 
     assert pico("set", "cam", "exposure=12").code == pico("set", "laser", "shutter=closed", "--json").code == 0
     assert pico("undo", "-y").code == 0  # of the exposure
     assert pico("move", "p1", "x=350", "y=420", "--yes").code == 0
+
+
+def test_what_was_done_slowly_is_undone_as_slowly_where_that_is_said(shel: Path, pico: Pico) -> None:
+    assert pico("move", "p1", "x=350", "y=420", "-y").code == 0
+    said = (pico("undo", "-y", *words, "--json").out for words in (("--speed", "0.2"), ()))
+    slow, fast = (json.loads(one.splitlines()[-1]) for one in said)
+    assert slow["outcome"] == fast["outcome"] == "done" and slow["seconds"] > 2 * fast["seconds"]
 
 
 def test_a_dry_run_moves_nothing(shel: Path, pico: Pico) -> None:
