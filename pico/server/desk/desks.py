@@ -116,18 +116,18 @@ class Desks:
             raise
         self._keep(self._attend(job, ended, (me.token, token.id), place, (far.folder, before)))
         if goes_on(wanted.command, words):
-            self._keep(self._announce(job.about))
+            self._keep(self._announce(job.about, session))
         return job
 
-    async def _announce(self, about: About) -> None:
-        """Tell those who watch the bench that a command began there."""
-        await self._books.do(self._write_event, about)
+    async def _announce(self, about: About, session: str) -> None:
+        """Tell those who watch the bench that a command began there, in which session."""
+        await self._books.do(self._write_event, about, session)
         self._books.announce()
 
-    def _write_event(self, about: About) -> None:
+    def _write_event(self, about: About, session: str) -> None:
         database = self._books.database
         with database.writing() as connection:
-            data = {"run": about.id, "who": about.who, "command": about.command}
+            data = {"run": about.id, "who": about.who, "command": about.command, "session": session}
             write_event(connection, database.now(connection), f"{about.lab}/{about.bench}", "desk", data)
 
     async def followed(self, job: Job, since: int = 0) -> AsyncIterator[bytes]:

@@ -118,9 +118,10 @@ COMMANDS: Mapping[str, Command] = {
 
 
 def goes_on(name: str, words: Sequence[str]) -> bool:
-    """Return whether a command goes on though nobody listens, and is listed: what only says what it would do, or writes
-    into the manifest alone, does not."""
-    return COMMANDS[name].lasting and not {"--dry-run", "--manifest"} & set(words)
+    """Return whether a command goes on though nobody listens, and is listed: what only says what it would do, lists
+    goals (`optimize` alone), or writes into the manifest alone, does not."""
+    lists = name == "optimize" and not words
+    return COMMANDS[name].lasting and not lists and not {"--dry-run", "--manifest"} & set(words)
 
 
 def checked(name: str, words: Sequence[str]) -> tuple[str, ...]:

@@ -35,7 +35,7 @@ class Bench {
   /** Whether it became this page's turn while it waited, and nobody has looked yet. */
   turn = $state(false);
   stopping = $state(false);
-  /** How many commands were begun at desks for this bench since it was opened. */
+  /** How many commands were begun at desks for this bench since it was opened, elsewhere than here. */
   begun = $state(0);
   /** Who hears each frame; the twin does. */
   onframe: (frame: Frame) => void = () => undefined;
@@ -81,9 +81,9 @@ class Bench {
     this.#watch = new Line("/api/events", {
       opened: () => void this.look(),
       text: (data) => {
-        const said = data as { bench?: string; kind?: string };
+        const said = data as { bench?: string; kind?: string; data?: { session?: string } };
         if (said.bench !== this.name) return;
-        if (said.kind === "desk") this.begun++;
+        if (said.kind === "desk" && said.data?.session !== MINE) this.begun++;
         void this.look();
       },
       binary: () => undefined,
