@@ -22,7 +22,7 @@ Words = Annotated[
     typer.Argument(metavar="[REV|A..B|^A]...", help="Commits, ranges, and what is to be left out; HEAD for none."),
 ]
 SETTINGS, CLASS = {"ignore_unknown_options": True}, Scoped
-_COUNT = re.compile(r"-(\d+)")
+_COUNT = re.compile(r"-(\d{1,9})")
 
 
 def log(
@@ -31,7 +31,9 @@ def log(
     graph: Annotated[bool, typer.Option("--graph", help="Draw the branches; shows all of them.")] = False,
     oneline: Annotated[bool, typer.Option("--oneline", help="One line a commit.")] = False,
     every: Annotated[bool, typer.Option("--all", help="Show all branches and tags, not only HEAD.")] = False,
-    number: Annotated[int | None, typer.Option("-n", "--number", min=1, help="At most so many commits.")] = None,
+    number: Annotated[
+        int | None, typer.Option("-n", "--number", min=1, max=10**9, help="At most so many commits.")
+    ] = None,
     since: Annotated[str | None, typer.Option(metavar="DATE", help="Newer than this, as git reads dates.")] = None,
     until: Annotated[str | None, typer.Option(metavar="DATE", help="Older than this.")] = None,
     author: Annotated[str | None, typer.Option(metavar="PATTERN", help="By whom.")] = None,

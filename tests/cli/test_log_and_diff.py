@@ -100,6 +100,8 @@ def test_a_merge_shows_where_it_differs_from_both_sides(shel: Path, pico: Pico) 
         (["log", "e9..main"], "there is no revision `e9`"),
         (["log", "p2"], "`pico log -- p2`"),
         (["log", "--sincee=now"], "no option --sincee"),
+        (["log", "-n", "9" * 20], "less than or equal to 1000000000"),
+        (["log", f"-{'9' * 20}"], "no option -9999"),
         (["log", "--", "p22"], "did you mean `p2`?"),
         (["log", "--", "p1.angel"], "did you mean `angle`?"),
         (["log", "--", "state/tabel.yaml"], "did you mean `state/table.yaml`?"),

@@ -96,6 +96,7 @@ def test_what_is_no_word_of_a_command_is_refused_before_anything_starts(desk: De
         for words in wordings:
             status, documents = desk.at(anna, command, *words)
             assert status == 400 and documents[0]["error"][0]["code"] == "usage", (command, words, documents)
+    assert desk.at(anna, "commit", "-m", "-5 mm")[1][0]["error"][0]["hint"] == "`--message=VALUE` where it begins so"
     assert desk.at(anna, "plan", *["x"] * 201)[0] == 422 and desk.at(anna, "plan", "x" * 10_001)[0] == 400
     for path in ("serve", "token", "git", "push", "pull", "init", "test", "edge", "..%2fruns"):
         assert desk.served.ask("POST", f"/api/labs/shel/desk/{path}", anna, {"words": []})[0] in (404, 405), path

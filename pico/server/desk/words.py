@@ -15,6 +15,7 @@ from pico.diagnostics import PicoError, did_you_mean, error
 MOST, LONGEST = 200, 10_000
 """How many words a command has at most, and how many characters a word."""
 _NUMBER = re.compile(r"-[0-9.][0-9.,eE+-]*")
+_LONG = {"-m": "--message", "-n": "--number", "-p": "--param"}
 _DESKS = ("web/", "detached/")
 """With what the branches begin that desks and detached runs have."""
 _TEXT = re.compile(r"[^\x00-\x08\x0b-\x1f\x7f\ud800-\udfff]*")
@@ -149,9 +150,8 @@ def checked(name: str, words: Sequence[str]) -> tuple[str, ...]:
             raise _refused(name, f"no value of `{option}` after `=`")
         if takes and not equals:
             if not left or (left[0].startswith("-") and not _NUMBER.fullmatch(left[0])):
-                raise _refused(
-                    name, f"`{option}` only with a value", f"`--{option.lstrip('-')}=VALUE` where it begins so"
-                )
+                long = _LONG.get(option, option)
+                raise _refused(name, f"`{option}` only with a value", f"`{long}=VALUE` where it begins so")
             found.append(_plain(name, left.pop(0)))
     return tuple(found)
 
