@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { filled, split } from "../src/api/client";
+import { filled, placed, Refused, split } from "../src/api/client";
 import type { Operation, RunDocument, Status } from "../src/api/documents";
 import { needs, type Known } from "../src/stores/attention";
-import { mark, number, python, seconds, shown, sign, typed } from "../src/stores/say";
+import { mark, number, python, said, seconds, shown, sign, typed } from "../src/stores/say";
 import { moved, stepped, tagged } from "../src/stores/moving";
 import { edited, wrong } from "../src/stores/editing";
 import { changed, type Scene, type Tunable } from "../src/twin/scene";
@@ -23,6 +23,14 @@ describe("words", () => {
     expect(python(["optimize", "centre", "ly_150", "cam"])).toContain('bench.optimize("centre", "ly_150", "cam")');
     expect(python(["teleop", "p2.pose"])).toContain('bench.teleop("p2", "pose")');
     expect(python(["run", "turning", "-p", "often=[1, 2]"])).toContain('recipes.arguments(made, {"often": "[1, 2]"})');
+  });
+  it("hold a message whatever it begins with", () => {
+    expect([said(""), said("why"), said("-5 mm")]).toEqual([[], ["-m", "why"], ["--message=-5 mm"]]);
+  });
+  it("say where something is wrong", () => {
+    const wrong = { severity: "error" as const, code: "yaml", summary: "no YAML" };
+    expect(placed({ ...wrong, source: { path: "state/table.yaml", start: { line: 48, column: 3 } } })).toBe("state/table.yaml:48:3: no YAML");
+    expect([placed(wrong), placed({ ...wrong, source: null })]).toEqual(["no YAML", "no YAML"]);
   });
   it("fill paths", () => {
     expect(filled("/api/labs/{lab}/desk", { lab: "a b", since: 3 })).toBe("/api/labs/a%20b/desk?since=3");
@@ -102,6 +110,11 @@ describe("lines", () => {
     const found = [];
     for await (const one of split(stream)) found.push(one);
     expect(found).toEqual([{ a: "°" }, { b: 2 }]);
+  });
+  it("end as a refusal where the coordinator is lost, and as it is where nobody listens any more", async () => {
+    const broken = (why: unknown): ReadableStream<Uint8Array> => new ReadableStream({ pull: (control) => control.error(why) });
+    await expect(split(broken(new TypeError("network error"))).next()).rejects.toBeInstanceOf(Refused);
+    await expect(split(broken(new DOMException("", "AbortError"))).next()).rejects.not.toBeInstanceOf(Refused);
   });
 });
 

@@ -9,8 +9,8 @@ export interface Diagnostic {
   detail?: string;
   hint?: string;
   address?: string;
-  file?: string;
-  line?: number;
+  /** The place in a file where it is. */
+  source?: { path: string; start: { line: number; column: number } } | null;
 }
 
 export type Path = keyof paths;
@@ -21,6 +21,11 @@ export class Refused extends Error {
   constructor(readonly status: number, readonly diagnostics: Diagnostic[]) {
     super(diagnostics.map((one) => one.summary).join("; ") || `the coordinator answered ${status}`);
   }
+}
+
+/** What is wrong, and where in a file that is. */
+export function placed(one: Diagnostic): string {
+  return one.source ? `${one.source.path}:${one.source.start.line}:${one.source.start.column}: ${one.summary}` : one.summary;
 }
 
 /** A path with its parameters put in: `/api/benches/{lab}/{bench}/lease`. */
@@ -54,8 +59,8 @@ async function answered(method: Method, path: string, body?: unknown, signal?: A
 }
 
 /** Ask, and return what is answered; throws Refused. */
-export async function ask<T>(method: Method, path: Path, parameters: Record<string, string | number> = {}, body?: unknown): Promise<T> {
-  const response = await answered(method, filled(path, parameters), body);
+export async function ask<T>(method: Method, path: Path, parameters: Record<string, string | number> = {}, body?: unknown, signal?: AbortSignal): Promise<T> {
+  const response = await answered(method, filled(path, parameters), body, signal);
   return (response.status === 204 ? null : await response.json()) as T;
 }
 
@@ -69,14 +74,20 @@ export async function* lines<T>(
   yield* split<T>(response.body!);
 }
 
-/** The JSON documents in a stream of bytes, a line each. */
+/** What the end of a line in the middle of an answer means to who asked. */
+function cut(failure: unknown): unknown {
+  if (failure instanceof DOMException && failure.name === "AbortError") return failure;
+  return new Refused(0, [{ severity: "error", code: "away", summary: "the coordinator was lost in the middle of its answer", hint: "what was begun may go on: Runs tells once it is back" }]);
+}
+
+/** The JSON documents in a stream of bytes, a line each; throws Refused where it is cut off. */
 export async function* split<T>(stream: ReadableStream<Uint8Array>): AsyncGenerator<T> {
   const reader = stream.getReader();
   const decoder = new TextDecoder();
   let rest = "";
   try {
     for (;;) {
-      const { value, done } = await reader.read();
+      const { value, done } = await reader.read().catch((failure: unknown) => { throw cut(failure); });
       rest += decoder.decode(value, { stream: !done });
       const found = rest.split("\n");
       rest = found.pop()!;

@@ -21,6 +21,8 @@ export interface LiveEvent { seq: number; epoch: number; rev: number; kind: stri
 const ASKED = "pico-asked";
 /** How long a lease goes on that is not renewed, where nobody says so [s]. */
 const LASTS = 10;
+/** How long STOP waits until it says that nobody answered [s]. */
+const ANSWERS = 5;
 
 class Bench {
   name = $state<string | null>(null);
@@ -34,7 +36,6 @@ class Bench {
   waits = $state(false);
   /** Whether it became this page's turn while it waited, and nobody has looked yet. */
   turn = $state(false);
-  stopping = $state(false);
   /** How many commands were begun at desks for this bench since it was opened, elsewhere than here. */
   begun = $state(0);
   /** Who hears each frame; the twin does. */
@@ -207,12 +208,13 @@ class Bench {
 
   /** Stop at once: arms brake, shutters close, grippers hold. Needs nobody's leave. */
   async stop(): Promise<void> {
-    this.stopping = true;
-    await told.trying(async () => {
-      await ask("post", "/api/benches/{lab}/{bench}/calls/stop", this.at, { with: [] });
+    try {
+      await ask("post", "/api/benches/{lab}/{bench}/calls/stop", this.at, { with: [] }, AbortSignal.timeout(ANSWERS * 1000));
       told.say("Stopped: arms brake, shutters close, grippers hold.");
-    });
-    this.stopping = false;
+    } catch (failure) {
+      const why = failure instanceof Refused ? failure.message : `no answer within ${ANSWERS} s`;
+      told.wrong([{ severity: "error", code: "stop", summary: `Not known to have stopped: ${why}`, hint: "use the emergency stop beside the table" }]);
+    }
   }
 
   /** Stop safely, as Ctrl-C would: nothing more starts, and a part in the hand is set down. */

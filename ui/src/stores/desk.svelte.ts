@@ -216,14 +216,17 @@ class Desk {
     if (!one || (this.going && this.going.exit === null)) return;
     this.going = { ...none(), words: [...one.command.split(" "), ...one.words], run: one.id, who: one.who };
     const live = this.going;
-    for await (const said of lines<Said>("get", filled("/api/labs/{lab}/desk/runs/{run}/events", { lab: bench.lab, run: one.id }))) {
-      if ("exit" in said && !("schema" in said)) live.exit = (said as { exit: number }).exit;
-      else {
-        live.diagnostics.push(...((said as unknown as Diagnostics).diagnostics ?? []));
-        heard(live, said);
+    try {
+      for await (const said of lines<Said>("get", filled("/api/labs/{lab}/desk/runs/{run}/events", { lab: bench.lab, run: one.id }))) {
+        if ("exit" in said && !("schema" in said)) live.exit = (said as { exit: number }).exit;
+        else {
+          live.diagnostics.push(...((said as unknown as Diagnostics).diagnostics ?? []));
+          heard(live, said);
+        }
       }
+    } finally {
+      live.exit ??= 1;
     }
-    live.exit ??= 1;
     await Promise.all([this.look(), this.history(), this.recorded()]);
   }
 

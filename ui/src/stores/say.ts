@@ -25,6 +25,12 @@ export function typed(words: string[]): string {
   return ["pico", ...words].map((one) => (/^[\w@%+=:,./-]+$/.test(one) ? one : `'${one.replaceAll("'", `'\\''`)}'`)).join(" ");
 }
 
+/** A message as an option of a command, which may begin as options do. */
+export function said(message: string): string[] {
+  if (!message) return [];
+  return message.startsWith("-") ? [`--message=${message}`] : ["-m", message];
+}
+
 const quoted = (text: string): string => JSON.stringify(text);
 const texts = (pair: string): string => `${quoted(pair.slice(0, pair.indexOf("=")))}: ${quoted(pair.slice(pair.indexOf("=") + 1))}`;
 const given = (pair: string, before: string): string => {

@@ -1,6 +1,6 @@
 /** What the page tells in passing: what went wrong, what was done. */
 
-import { Refused, type Diagnostic } from "../api/client";
+import { placed, Refused, type Diagnostic } from "../api/client";
 
 export interface Told { number: number; kind: "said" | "wrong"; text: string; hint: string }
 
@@ -15,7 +15,7 @@ class Telling {
   }
 
   wrong(found: Diagnostic[]): void {
-    for (const one of found) this.#add("wrong", one.summary, one.hint ?? "");
+    for (const one of found) this.#add("wrong", placed(one), one.hint ?? "");
   }
 
   failed(failure: unknown): void {

@@ -50,6 +50,8 @@ console.log("One had the bench at a time.");
 
 console.log("gone?");
 for (const page of [mine, theirs]) await line(page, "line lost");
+await mine.getByRole("button", { name: "STOP" }).first().click();
+await mine.getByRole("alert").filter({ hasText: /Not known to have stopped: .*use the emergency stop/ }).waitFor();
 console.log("back?");
 for (const page of [mine, theirs]) await line(page, "connected");
 await chip(mine, "free");
