@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from logging.handlers import BufferingHandler
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,6 +15,7 @@ from sqlalchemy import select
 from starlette.routing import Route
 from websockets.exceptions import InvalidStatus
 
+from pico.diagnostics import PicoError
 from pico.server.access.principal import ROLES, Principal, Right
 from pico.server.app import ROUTERS, create_app
 from pico.server.guard.rates import Rate
@@ -254,3 +256,15 @@ def test_what_was_done_is_in_the_audit_and_whoever_changes_that_is_seen(coordina
             connection.execute(audit.delete())
             connection.execute(audit.insert().values(rows))
     assert coordinator.ask("GET", "/api/audit", root)[1]["broken"] is None
+
+
+def test_books_that_can_not_be_written_are_no_fault_of_the_coordinator(tmp_path: Path) -> None:
+    books = books_in(tmp_path)
+    people = books.people
+    with books.database.writing() as connection:
+        connection.exec_driver_sql("PRAGMA max_page_count = 1")  # as large as it is, and no larger
+    with pytest.raises(PicoError) as raised:
+        for number in range(1000):
+            people.settled(f"p{number}", [], by="admin")
+    assert raised.value.diagnostics[0].code == "books" and "full" in raised.value.diagnostics[0].summary
+    books.close()

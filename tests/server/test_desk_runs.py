@@ -20,7 +20,7 @@ from coordinators import served
 from desks import ASKING, WARM, Desked, asked, desked, followed, placed, say
 
 from pico.backends.sim.session import WorldSession
-from pico.diagnostics import PicoError
+from pico.diagnostics import PicoError, error
 from pico.history.examples.example import make_example
 from pico.server.desk import jobs
 from pico.server.desk.desks import Desking
@@ -103,6 +103,31 @@ def test_who_began_a_run_cancels_it_as_ctrl_c_does_and_nobody_else(
     assert lines(desk, anna, run)[-1]["exit"] == 130
     assert run_of(desk, anna, run)["ended_at"] is not None
     assert desk.said(anna, "status")
+
+
+def test_a_run_is_over_though_the_coordinator_can_not_write_that_down(
+    desk: Desked, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object, **__: object) -> None:
+        raise PicoError(error("books", "the coordinator can't write its books: database or disk is full"))
+
+    def ends_unwritten(path: Path, content: bytes, real: Any = jobs.write_whole) -> None:
+        if b'"exit": null' not in content:
+            full()
+        real(path, content)
+
+    anna, people = desk.served.person("anna", "operator"), desk.served.books.people
+    with monkeypatch.context() as patched:
+        patched.setattr(people, "revoked", full)
+        patched.setattr(jobs, "write_whole", ends_unwritten)
+        run = desk.at(anna, "apply", "-y", detach=True)[1][0]["run"]
+        assert lines(desk, anna, run)[-1]["exit"] == 0
+        told = run_of(desk, anna, run)
+    assert told["exit"] == 0 and told["ended_at"] is not None
+    with monkeypatch.context() as patched:
+        patched.setattr(people, "issued", full)
+        status, said = desk.at(anna, "note", "p1", "a")
+    assert status == 503 and said[0]["error"][0]["code"] == "books"
 
 
 def desk_said(desk: Desked, run: str) -> list[bytes]:

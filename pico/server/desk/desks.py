@@ -9,6 +9,7 @@ import shutil
 import signal
 import time
 from collections.abc import AsyncIterator, Coroutine, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -260,18 +261,20 @@ class Desks:
         """Wait until a command has ended, and put away what it had."""
         command = COMMANDS[job.about.command]
         why = await self._until_ended(job, ended, tokens) or job.about.why
-        status = ended.result()
-        if command.role != "viewer":
-            await self._books.do(self._books.people.revoked, tokens[1], by="coordinator")
-        if goes_on(job.about.command, job.about.words):
-            new = runs_begun(runs[0])[runs[1] :]
-            job.note(exit=code_of(status), ended_at=time.time(), why=why, runs=new)
-            shutil.rmtree(job.folder / "tmp", ignore_errors=True)
-        else:
-            job.about = replace(job.about, exit=code_of(status), why=why)
-        if job.about.branch:
-            await asyncio.to_thread(places.remove, self._bare(job.about.lab), place)
-        self._over(job)
+        status, new = ended.result(), runs_begun(runs[0])[runs[1] :]
+        try:
+            if command.role != "viewer":
+                await self._books.do(self._books.people.revoked, tokens[1], by="coordinator")
+            if job.about.branch:
+                await asyncio.to_thread(places.remove, self._bare(job.about.lab), place)
+        finally:  # on a full disk, too: nobody waits for it any more
+            if goes_on(job.about.command, job.about.words):
+                with suppress(PicoError):
+                    job.note(exit=code_of(status), ended_at=time.time(), why=why, runs=new)
+                shutil.rmtree(job.folder / "tmp", ignore_errors=True)
+            else:
+                job.about = replace(job.about, exit=code_of(status), why=why)
+            self._over(job)
 
     async def _until_ended(self, job: Job, ended: asyncio.Future[int], tokens: tuple[str, str]) -> str:
         """Wait until a command has ended; end it where it goes on for too long, and as Ctrl-C does, with time for a

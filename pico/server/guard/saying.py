@@ -21,6 +21,7 @@ STATUS: Mapping[str, int] = {
     "limit": 429,
     "too-long": 413,
     "away": 503,
+    "books": 503,
     "internal": 500,
 }
 """The status of what is wrong, by its code; 409 for a bench that somebody else has and what is stale, else 400."""

@@ -13,7 +13,9 @@ from typing import Any
 
 from sqlalchemy import Connection, Engine, create_engine, event, func, inspect, select
 from sqlalchemy.engine import make_url
+from sqlalchemy.exc import OperationalError
 
+from pico.diagnostics import PicoError, error
 from pico.server.store.tables import metadata
 
 Clock = Callable[[], float]
@@ -41,11 +43,16 @@ class Database:
     @contextmanager
     def writing(self, *, durable: bool = True) -> Iterator[Connection]:
         """Write all or nothing: durable once the block has ended, undone where it raises. Not `durable`: it outlives
-        this process, and a power failure once something later is durable; for what others know, and say again."""
-        with (self._writer if durable else self._lazy).begin() as connection:
-            if not durable and not self.local:
-                connection.exec_driver_sql("SET LOCAL synchronous_commit = off")
-            yield connection
+        this process, and a power failure once something later is durable; for what others know, and say again. Raises
+        PicoError where the database can't be written, on a full disk say."""
+        try:
+            with (self._writer if durable else self._lazy).begin() as connection:
+                if not durable and not self.local:
+                    connection.exec_driver_sql("SET LOCAL synchronous_commit = off")
+                yield connection
+        except OperationalError as exc:
+            text = f"the coordinator can't write its books: {exc.orig}"
+            raise PicoError(error("books", text, hint="it needs room on its disk; STOP needs none")) from exc
 
     def _widen(self) -> None:
         """Add the column that tables made before it have not."""
