@@ -35,9 +35,6 @@ const KEPT = "pico-run";
 
 interface DeskRun { id: string; who: string; bench: string; command: string; words: string[]; exit: number | null }
 
-/** Whether it only lists goals: `optimize` alone. */
-const lists = ({ command, words }: DeskRun): boolean => command === "optimize" && words.every((one) => one.startsWith("-"));
-
 function none(): Going {
   return { words: [], run: null, who: null, plan: null, events: [], said: [], steps: {}, report: null, exit: null, diagnostics: [] };
 }
@@ -212,7 +209,7 @@ class Desk {
     const { runs } = await ask<{ runs: DeskRun[] }>("get", "/api/labs/{lab}/desk/runs", { lab: bench.lab });
     const mine = sessionStorage.getItem(KEPT);
     sessionStorage.removeItem(KEPT);
-    const one = runs.find((each) => each.id === mine) ?? runs.find((each) => each.exit === null && !lists(each) && [bench.name, bench.at.bench].includes(each.bench));
+    const one = runs.find((each) => each.id === mine) ?? runs.find((each) => each.exit === null && [bench.name, bench.at.bench].includes(each.bench));
     if (!one || (this.going && this.going.exit === null)) return;
     this.going = { ...none(), words: [...one.command.split(" "), ...one.words], run: one.id, who: one.who };
     const live = this.going;
