@@ -1,6 +1,6 @@
 /**
  * A picture of every page and state, at three widths, light and dark, in Chromium:
- *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME | =NAME | --documented]
+ *   node pictures.mjs ADDRESS FOLDER [PART OF A NAME | =NAME,NAME | --documented]
  * ADDRESS is what `pico gui` told, of a lab that stands at E1-3 (shel), with a branch `impossible` on which two parts
  * stand in each other. `--documented`: the pictures of the documentation alone; WIDTHS=1000,420: at these widths alone.
  * Says which buttons and words are cut.
@@ -108,7 +108,7 @@ const STATES = {
     await page.getByRole("button", { name: "Close" }).first().click({ timeout: 500 }).catch(() => undefined);
     await planApplied();
     await press("Halt");
-    await page.getByRole("button", { name: "Resume" }).waitFor();
+    await page.getByRole("button", { name: "Resume" }).first().waitFor();
     await press("Log");
   }],
   gone: ["inspect?part=p2", async () => { way.cut(); await page.waitForTimeout(1500); }, async () => { way.mend(); await page.waitForTimeout(2500); }],
@@ -184,7 +184,7 @@ if (only === "--documented") {
 }
 
 page.setDefaultTimeout(25_000);
-const chosen = Object.entries(STATES).filter(([name]) => (only.startsWith("=") ? `=${name}` === only : name.includes(only)));
+const chosen = Object.entries(STATES).filter(([name]) => (only.startsWith("=") ? only.slice(1).split(",").includes(name) : name.includes(only)));
 for (const width of (process.env.WIDTHS ?? "1440,1000,420").split(",").map(Number)) {
   await page.setViewportSize({ width, height: width === 420 ? 860 : 900 });
   for (const [name, state] of chosen) {
