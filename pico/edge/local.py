@@ -59,6 +59,7 @@ OBEYS = 0.02
 """Seconds of wall time between two looks at whether somebody asked to stop."""
 ADOPTING = "adopting"
 """For which the bench is taken while it gets another Lab: one that can't be read is no reason not to."""
+LEASE_OVER = "its lease was over: the coordinator was away, or gave the bench away"
 HALTED = error("halted", "the bench is halted: nothing more is started")
 
 
@@ -299,7 +300,7 @@ class LocalEdge:
     async def drain(self) -> None:
         """Bring what is under way to its safe end, and take the bench back from whoever has it."""
         if (lease := self._lease) is not None:
-            self._ended_for = self._ended_for or "its lease was over: the coordinator was away, or gave the bench away"
+            self._ended_for = self._ended_for or LEASE_OVER
             await self._halt()
             await self._ended()
             await self.release(lease)
@@ -738,9 +739,15 @@ class LocalEdge:
 
     def _why(self, report: RunReport) -> tuple[Diagnostic, ...]:
         """Return why a run was interrupted, where its client does not know."""
-        if report.outcome != "interrupted" or not self._ended_for:
+        if report.outcome != "interrupted":
             return ()
-        return (warning("ended", self._ended_for),)
+        why, granting = self._ended_for, self._lock.granting
+        if not why and granting is not None:
+            try:
+                granting.require()
+            except PicoError:  # a step asked that before anybody drained the bench
+                why = LEASE_OVER
+        return (warning("ended", why),) if why else ()
 
     # remembering
 
