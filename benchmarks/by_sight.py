@@ -30,6 +30,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the command has it
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests")]
@@ -121,7 +123,7 @@ def draw(setup: Setup, motion: ArmMotion, seen: Observation, rnd: random.Random)
 
 def moves(setup: Setup, root: Path, count: int, seed: int) -> Iterator[Done]:
     """Yield the moves as they are made."""
-    device = SimDevice(setup, root, "physics", clock=lambda: "2026-11-23T00:00:00Z")
+    device = SimDevice(setup, BenchPlace(root, "sim"), "physics", clock=lambda: "2026-11-23T00:00:00Z")
     rnd, motion = random.Random(seed), ArmMotion(setup)
     with poisoned():
         seen = asyncio.run(device.observe())
@@ -137,7 +139,7 @@ def moves(setup: Setup, root: Path, count: int, seed: int) -> Iterator[Done]:
             cpu = time.process_time() - cpu
             assert device._session is not None
             seen = device._session._known.seen()
-        body, said = load_world(setup, root)[0].components[operation.component], result.after
+        body, said = load_world(setup, BenchPlace(root, "sim"))[0].components[operation.component], result.after
         goal = Pose(**operation.arguments["to"]["pose"])
         if body.pose is None or said is None or said.pose is None:
             yield Done(_said(result), False, "", 999.0, 999.0, 0.0, predicted, result.seconds, cpu)

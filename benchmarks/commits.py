@@ -30,6 +30,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT)]
 
@@ -88,13 +90,13 @@ def write_lab(folder: Path, parts: int, per_file: int) -> None:
     for words in (["init", "-q", "-b", "main"], ["add", "."], ["commit", "-qm", "a large bench"]):
         ask(folder, *words)
     with Bench.open(folder) as bench:
-        world, _ = load_world(bench.setup, folder)
+        world, _ = load_world(bench.setup, BenchPlace(folder, "sim"))
         angle = {"angle": ObservedValue(value=0.0, status="known")}
         bodies = {
             name: replace(body, pose=place_of(bench.setup, bench.state, name)[1], values=angle)
             for name, body in world.components.items()
         }
-        save_world(folder, replace(world, components=bodies))
+        save_world(BenchPlace(folder, "sim"), replace(world, components=bodies))
 
 
 def state_file(folder: Path, part: str, per_file: int) -> Path:

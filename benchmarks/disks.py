@@ -232,7 +232,7 @@ CASES: dict[str, Case] = {
     "calibrate markers": Case(("calibrate", "markers", "--out", "m.pdf"), out="m.pdf"),
     "sim nudge": Case(NUDGED, adds=True),
     "sim reset": Case(("sim", "reset")),
-    "sim faults": Case(("sim", "faults", "drop=0.1"), out=".pico/sim/faults.json"),
+    "sim faults": Case(("sim", "faults", "drop=0.1"), out=".pico/benches/sim/faults.json"),
     "check --report": Case(("check", "C3", "--report", "r.md", "--pictures", "none"), out="r.md"),
     "bisect run": Case(("bisect", "run", "e2", "C1", "--expect", "p2.pose.yaw < 20.0", "--auto-approve")),
     "status": Case(("status",), looks=True),
@@ -371,7 +371,7 @@ def whole(path: Path) -> str:
 def table(lab: Path) -> object:
     """Return where the parts of the simulated bench are, and their values."""
     try:
-        world = json.loads((lab / ".pico" / "sim" / "world.json").read_text())
+        world = json.loads((lab / ".pico/benches/sim" / "world.json").read_text())
     except FileNotFoundError:
         return None
     return {n: (b["presence"], b.get("pose"), b["values"]) for n, b in world["components"].items()}

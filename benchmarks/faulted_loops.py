@@ -27,6 +27,8 @@ from dataclasses import replace
 from pathlib import Path
 from random import Random
 
+from pico.places.bench import BenchPlace
+
 QUICK = Path("/dev/shm")
 """Where files are kept in memory: nothing here asks what becomes of them without power."""
 ROOT = Path(__file__).resolve().parent.parent
@@ -101,7 +103,7 @@ class Loops:
         """Return a lab's bench, and its world as it was placed."""
         if lab not in self.benches:
             bench = Bench.open(made(lab, self.place), fidelity="kinematic")
-            self.benches[lab] = bench, load_world(bench.setup, bench.folder.root)[0]
+            self.benches[lab] = bench, load_world(bench.setup, BenchPlace(bench.folder.root, "sim"))[0]
         return self.benches[lab]
 
     def one(self, number: int, name: str, kind: str) -> Iterator[str]:
@@ -110,9 +112,9 @@ class Loops:
         bench, placed = self.bench(sought.lab)
         root, setup = bench.folder.root, bench.setup
         before = drawn(setup, placed, sought, draw)
-        save_world(root, before, durable=False)
-        save_faults(root, Faults(rates=FAULTS.get(kind, {}), seed=draw.randrange(10**6)))
-        with (root / ".pico" / "lock").open("r+b") as lock:  # by the tokens counted there faults are drawn
+        save_world(BenchPlace(root, "sim"), before, durable=False)
+        save_faults(BenchPlace(root, "sim"), Faults(rates=FAULTS.get(kind, {}), seed=draw.randrange(10**6)))
+        with (root / ".pico/benches/sim" / "lock").open("r+b") as lock:  # by the tokens counted there faults are drawn
             lock.write(b"%-31d\n" % (1000 * (number + 1)))
         algorithm = draw.choice(sought.algorithms)
         chosen = bench.goals.chosen([name], algorithm=algorithm)
@@ -128,7 +130,7 @@ class Loops:
         except Exception as exc:
             yield f"it raised {exc!r}: {getattr(exc, 'diagnostics', '')}"
             return
-        after, _ = load_world(setup, root)
+        after, _ = load_world(setup, BenchPlace(root, "sim"))
         self.count["met" if found.met else "not met"] += 1
         yield from self.judged(sought, kind, setup, root, (before, after), found)
 
@@ -180,7 +182,7 @@ def unnamed(sought: Sought, named: re.Match[str], first: dict[str, float], after
 def killed(folder: Path, pid: int, draw: Random, sought: Sought) -> bool:
     """Kill a process (an optimization, or who serves it) a while after the optimization began; return whether it was
     killed before that ended."""
-    until, mark = time.monotonic() + 60.0, folder / ".pico" / "run"
+    until, mark = time.monotonic() + 60.0, folder / ".pico/benches/sim" / "run"
     while not mark.exists() and time.monotonic() < until:
         time.sleep(0.002)
     time.sleep(draw.uniform(0.0, 1.5))
@@ -201,7 +203,7 @@ class Kills:
         if lab not in self.labs:
             folder = made(lab, self.place)
             with Bench.open(folder, fidelity="kinematic") as bench:
-                self.labs[lab] = folder, bench.setup, load_world(bench.setup, folder)[0]
+                self.labs[lab] = folder, bench.setup, load_world(bench.setup, BenchPlace(folder, "sim"))[0]
         return self.labs[lab]
 
     def one(self, name: str, served: bool) -> Iterator[str]:
@@ -212,9 +214,11 @@ class Kills:
         sought = SOUGHT[name]
         folder, setup, placed = self.lab(sought.lab)
         before = drawn(setup, placed, sought, self.draw)
-        save_world(folder, before, durable=False)
-        save_faults(folder, Faults())
-        (folder / ".pico" / "run").unlink(missing_ok=True)  # of one that was killed before it had set anything
+        save_world(BenchPlace(folder, "sim"), before, durable=False)
+        save_faults(BenchPlace(folder, "sim"), Faults())
+        (folder / ".pico/benches/sim" / "run").unlink(
+            missing_ok=True
+        )  # of one that was killed before it had set anything
         words = ("optimize", name, "--yes", "--algorithm", self.draw.choice(sought.algorithms))
         if served:
             try:
@@ -232,11 +236,11 @@ class Kills:
             self.count["ended first"] += 1
             return
         self.count["server killed" if served else "command killed"] += 1
-        left, _ = load_world(setup, folder)
+        left, _ = load_world(setup, BenchPlace(folder, "sim"))
         yield from outside(setup, left, sought)
         way = self.draw.choice(("resume", "undo"))
         code = command(folder, way, "--yes")
-        after, _ = load_world(setup, folder)
+        after, _ = load_world(setup, BenchPlace(folder, "sim"))
         yield from outside(setup, after, sought)
         wanted, found = others(before, sought), others(after, sought)
         if changed := {k: (v, found[k]) for k, v in wanted.items() if found[k] != v}:

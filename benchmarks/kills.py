@@ -19,6 +19,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests" / "execution")]
 REVISIONS = ("C1", "C3", "E1-1", "E1-3", "E2-3", "E3-2")
@@ -87,7 +89,7 @@ def repeated(folder: Path) -> list[str]:
     from pico.runs.journal import Journal, operation_from_json
 
     setup = LabFolder(folder).setup
-    journal, found = Journal(folder / ".pico" / "journal.sqlite"), []
+    journal, found = Journal(folder / ".pico/benches/sim" / "journal.sqlite"), []
     for record in journal.records():
         if record.kind != "started" or "pose" not in record.data or record.data["presence"] != "seen":
             continue
@@ -102,7 +104,7 @@ def moved(folder: Path, before: dict[str, object]) -> list[str]:
     """Return the parts that are elsewhere than `before` though the journal holds no start of an operation on them."""
     from pico.runs.journal import Journal
 
-    journal = Journal(folder / ".pico" / "journal.sqlite")
+    journal = Journal(folder / ".pico/benches/sim" / "journal.sqlite")
     begun = {r.component for r in journal.records() if r.kind == "started"}
     journal.close()
     return [n for n, pose in places(folder).items() if pose != before[n] and n not in begun]
@@ -113,7 +115,7 @@ def places(folder: Path) -> dict[str, object]:
     from pico.backends.sim.store import load_world
     from pico.history.lab.folder import LabFolder
 
-    world, _ = load_world(LabFolder(folder).setup, folder)
+    world, _ = load_world(LabFolder(folder).setup, BenchPlace(folder, "sim"))
     return {n: (body.presence, body.pose) for n, body in world.components.items()}
 
 

@@ -23,6 +23,7 @@ import numpy as np
 
 import pico
 from pico.bench.bench import Bench, new_lab
+from pico.places.bench import BenchPlace
 
 NEAR = 5.0
 """How near the middle is near enough [um]."""
@@ -78,7 +79,7 @@ def true_off(bench: Bench) -> float:
     from pico.backends.sim.store import load_world
 
     root = bench.folder.root
-    world, _ = load_world(bench.setup, root)
+    world, _ = load_world(bench.setup, BenchPlace(root, "sim"))
     found = light_on(Table(bench.setup, root, world)).at("camera")
     return 1e3 * abs(sum(a.power * a.center[0] for a in found) / sum(a.power for a in found))
 

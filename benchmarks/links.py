@@ -19,6 +19,8 @@ import time
 from collections import Counter
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks"), str(ROOT / "tests" / "edge")]
 
@@ -53,7 +55,7 @@ async def attached(folder: Path, since: int) -> tuple[str, bool, list[str]]:
     from pico.edge.link.client import RemoteEdge
     from pico.edge.link.line import SocketLine
 
-    path = place.find(folder)
+    path = place.find(BenchPlace(folder, "sim"))
     assert path is not None
     edge = RemoteEdge(SocketLine(path))
     going = await edge.holder() is not None

@@ -25,6 +25,7 @@ from pico.backends.sim.store import load_world, save_world
 from pico.bench.bench import Bench
 from pico.bench.mornings import Morning
 from pico.diagnosis.suspects import NOTHING
+from pico.places.bench import BenchPlace
 
 Draw = random.Random
 Fault = Callable[[Bench, Draw], str]
@@ -104,11 +105,11 @@ def night(bench: Bench, root: Path, draw: Draw, fault: Fault | None) -> tuple[Mo
     """Let a night pass, and something happen in it; return the morning after it, and the part. Afterwards the fault is
     gone, and the time has passed."""
     bench.sim.wait(3600 * draw.uniform(8, 16))
-    before = load_world(bench.setup, root)[0]
+    before = load_world(bench.setup, BenchPlace(root, "sim"))[0]
     part = fault(bench, draw) if fault else ""
     found = bench.morning()
-    after = load_world(bench.setup, root)[0]
-    save_world(root, replace(after, components=before.components))
+    after = load_world(bench.setup, BenchPlace(root, "sim"))[0]
+    save_world(BenchPlace(root, "sim"), replace(after, components=before.components))
     return found, part
 
 

@@ -23,6 +23,8 @@ from typing import Any
 from network_links import CLEAR, WEATHER, Cable, Weather, link
 from network_table import Entries, table
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 BENCH, TOKEN = "shel/bench1", "of-a-benchmark"
 
@@ -79,12 +81,12 @@ def edge(root: Path, note: Path | None) -> None:
     from pico.edge.network.uplink import Uplink
     from pico.runs.journal import utc_now  # to the millisecond
 
-    enrolment = read_enrolment(root)
+    enrolment = read_enrolment(BenchPlace(root, "sim"))
     assert enrolment is not None
     if note is None:
-        found = edge_of(root, "sim", "kinematic")
+        found = edge_of(BenchPlace(root, "sim"), "kinematic")
     else:
-        lab = own_lab.read(root) or own_lab.proposed(root)
+        lab = own_lab.read(BenchPlace(root, "sim")) or own_lab.proposed(root)
         assert lab is not None
 
         def bring_up(*_: Any) -> Any:
@@ -92,9 +94,9 @@ def edge(root: Path, note: Path | None) -> None:
             return clock, Entries(entries)
 
         def opening(setup: Any) -> Any:
-            return bench(setup, root, "emulated", "kinematic", utc_now, bring_up)
+            return bench(setup, BenchPlace(root, "emulated"), "kinematic", utc_now, bring_up)
 
-        found = LocalEdge(own_lab.setup_of(lab), root, opening, lab, utc_now)
+        found = LocalEdge(own_lab.setup_of(lab), BenchPlace(root, "sim"), opening, lab, utc_now)
     uplink = Uplink(found, enrolment)
     asyncio.run(serve(found, beside=uplink.run))
 
@@ -136,8 +138,10 @@ class Network:
                 shutil.copy(ROOT / "examples" / "devices.yaml", folder)
         self._enrol()
         from pico.edge.network.remotes import Remote, Remotes, keep
+        from pico.places.choice import write_choice
 
-        keep(self.checkout, Remotes({"lab": Remote(f"http://127.0.0.1:{self.near}")}, f"lab/{BENCH}"))
+        keep(self.checkout, Remotes({"lab": Remote(f"http://127.0.0.1:{self.near}")}))
+        write_choice(self.checkout, f"lab/{BENCH}")
         os.environ["PICO_TOKEN"] = TOKEN
 
     def _enrol(self) -> None:
@@ -146,7 +150,6 @@ class Network:
 
         from sqlalchemy import update
 
-        from pico.attachment import bench_folder
         from pico.edge.network.enrolment import Enrolment
         from pico.server.access.principal import ROLES, right
         from pico.server.access.secret import fingerprint
@@ -162,7 +165,7 @@ class Network:
         code, _ = Edges(books.database).invited(BENCH, "benchmark")
         Edges(books.database).enrolled(code, key)
         books.close()
-        note = bench_folder(self.beside) / "enrolment.json"
+        note = BenchPlace(self.beside, "sim").folder / "enrolment.json"
         note.parent.mkdir(exist_ok=True)
         note.write_text(json.dumps(asdict(Enrolment(f"http://127.0.0.1:{self.far}", BENCH, key))))
 

@@ -29,6 +29,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
@@ -101,7 +103,11 @@ def places(network: Network) -> dict[str, tuple[str, object]]:
     from pico.history.lab.folder import LabFolder
 
     setup = LabFolder(network.beside).setup
-    world, _ = load_world(setup, network.beside, FOLDER) if network.emulated else load_world(setup, network.beside)
+    world, _ = (
+        load_world(setup, BenchPlace(network.beside, "sim"), FOLDER)
+        if network.emulated
+        else load_world(setup, BenchPlace(network.beside, "sim"))
+    )
     return {n: (body.presence, body.pose) for n, body in world.components.items()}
 
 
@@ -122,7 +128,7 @@ def seen(network: Network) -> Seen:
 
     from pico.runs.journal import Journal
 
-    path, found = network.beside / ".pico" / "journal.sqlite", Seen()
+    path, found = network.beside / ".pico/benches/sim" / "journal.sqlite", Seen()
     if path.exists():
         journal = Journal(path, looking=True)
         found.records, found.unsettled = list(journal.records()), [one.key for one in journal.unsettled()]

@@ -21,6 +21,10 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
+from bench_at import bench_at
+
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
@@ -68,10 +72,10 @@ class Steered(Network):
             from pico.edge.network.enrolment import read_enrolment
             from pico.edge.network.uplink import Uplink
 
-            enrolment = read_enrolment(self.beside)
+            enrolment = read_enrolment(BenchPlace(self.beside, "sim"))
             assert enrolment is not None
             _noted(self.taken.path)
-            found = edge_of(self.beside, "sim", "kinematic")
+            found = edge_of(bench_at(self.beside), "kinematic")
             _watching(found, self.moved.path)
             asyncio.run(serve(found, beside=Uplink(found, enrolment).run))
 

@@ -23,6 +23,7 @@ from pico.backends.sim.lighted import light_on
 from pico.backends.sim.readings import Table
 from pico.backends.sim.store import load_world
 from pico.bench.bench import Bench, new_lab
+from pico.places.bench import BenchPlace
 
 NEAR = 0.02
 """How near is near enough [deg]."""
@@ -40,7 +41,7 @@ def least(of: Callable[[float], float], low: float, high: float) -> float:
 
 def true_error(bench: Bench, folder: Path) -> float:
     """Return how far p2 truly stands from the true null of p1 and p2 plus the offset [deg]."""
-    world = load_world(bench.setup, folder)[0]
+    world = load_world(bench.setup, BenchPlace(folder, "sim"))[0]
     body = world.components["p2"]
     stands = float(body.true_values["angle"])
 

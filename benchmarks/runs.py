@@ -137,7 +137,7 @@ def interrupts(count_: int, fidelity: str) -> int:
 
 def until_it_moves(folder: Path, process: int) -> None:
     """Wait until a process has taken the bench, or is over."""
-    while not (folder / ".pico" / "holder.json").exists() and cpu(process) < 60:
+    while not (folder / ".pico/benches/sim" / "holder.json").exists() and cpu(process) < 60:
         if os.waitid(os.P_PID, process, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None:
             return
         time.sleep(0.002)
@@ -177,7 +177,7 @@ def pairs(trials: int) -> int:
             both = [forked(folder, *words, out=f"out{n}.txt") for n in range(2)]
             codes = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in both]
             texts = [(folder / f"out{n}.txt").read_text() for n in range(2)]
-            journal = Journal(folder / ".pico" / "journal.sqlite")
+            journal = Journal(folder / ".pico/benches/sim" / "journal.sqlite")
             runs = len(journal.runs())
             journal.close()
             names = [f"process {both[1 - n]}" in texts[n] for n in range(2) if codes[n] == 5]

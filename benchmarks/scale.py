@@ -30,6 +30,8 @@ from dataclasses import dataclass, replace
 from itertools import product
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "tests"), str(ROOT / "tests" / "planning")]
 
@@ -206,9 +208,9 @@ def write_lab(folder: Path, found: Arrangement, gripper: Gripper) -> None:
     for arguments in (["init", "-q"], ["add", "."], ["commit", "-qm", "a large bench"]):
         subprocess.run([*git, *arguments], cwd=folder, check=True)
     with Bench.open(folder) as bench:
-        world, _ = load_world(bench.setup, folder)
+        world, _ = load_world(bench.setup, BenchPlace(folder, "sim"))
         bodies = {n: replace(b, pose=found.starts[n]) for n, b in world.components.items()}
-        save_world(folder, replace(world, components=bodies))
+        save_world(BenchPlace(folder, "sim"), replace(world, components=bodies))
 
 
 @dataclass(frozen=True)

@@ -17,6 +17,8 @@ import time
 from dataclasses import replace
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the command has it
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT))
@@ -45,7 +47,7 @@ def main() -> None:
         here = replace(setup, lab=replace(setup.lab, sim=sim))
         with tempfile.TemporaryDirectory() as folder:
             begun = time.process_time()
-            seen = asyncio.run(embedded(here, Path(folder), "sim", "kinematic").look()).observation
+            seen = asyncio.run(embedded(here, BenchPlace(Path(folder), "sim"), "kinematic").look()).observation
             seconds.append(time.process_time() - begun)
         for name, body in new_world(here).components.items():
             part = seen.components[name]

@@ -33,6 +33,7 @@ from pico.model.setup import Setup
 from pico.optics.coupling import coupled
 from pico.optics.environment import in_the_world
 from pico.optics.light import light_of
+from pico.places.bench import BenchPlace
 
 MOST, SURE, TAKEN = 60, 0.95, 0.9
 """Measurements that nine of ten may take, the share of seeds that must be found, the share of the light that is."""
@@ -134,7 +135,7 @@ def run(folder: Path, seed: int, loose: bool = False) -> Found:
 def taken(setup: Setup, folder: Path) -> float:
     """Return the share that the fibre truly takes of what it would with the mirrors at their best: the logarithm of the
     power is a parabola, whose top Newton's method finds; 0 where no light comes to it at all."""
-    world = load_world(setup, folder)[0]
+    world = load_world(setup, BenchPlace(folder, "sim"))[0]
     standing = {n: b for n, b in world.components.items() if b.presence == "seen" and b.pose is not None}
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
     unseen = {n: one for n, b in standing.items() if (one := unseen_of(setup, n, b))}

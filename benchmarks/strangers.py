@@ -23,6 +23,8 @@ from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
+from pico.places.bench import BenchPlace
+
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # as the command has it
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
@@ -47,8 +49,8 @@ WITHIN = 2.0
 
 def look(setup: Setup, root: Path, world: World) -> Observation:
     """Return what a bench by sight says of a world."""
-    save_world(root, world)
-    return asyncio.run(SimDevice(setup, root, clock=lambda: "2026-11-23T00:00:00Z").observe())
+    save_world(BenchPlace(root, "sim"), world)
+    return asyncio.run(SimDevice(setup, BenchPlace(root, "sim"), clock=lambda: "2026-11-23T00:00:00Z").observe())
 
 
 def free_place(setup: Setup, world: World, rnd: random.Random, reach: float) -> Pose:

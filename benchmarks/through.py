@@ -29,6 +29,7 @@ from pico.bench.bench import Bench
 from pico.optics.environment import in_the_world
 from pico.optics.light import light_of
 from pico.optics.offsets import Place, offset
+from pico.places.bench import BenchPlace
 
 NEAR = 0.2
 """How near the middle of each iris is near enough [mm]: a third of the beam's radius there."""
@@ -82,7 +83,7 @@ class Found:
 def beside(bench: Bench, folder: Path) -> float:
     """Return how far beside the middle of an iris the beam truly passes, of the worse one [mm]."""
     setup = bench.setup
-    world = load_world(setup, folder)[0]
+    world = load_world(setup, BenchPlace(folder, "sim"))[0]
     standing = {n: b for n, b in world.components.items() if b.presence == "seen" and b.pose is not None}
     poses = {n: b.pose for n, b in standing.items() if b.pose is not None}
     unseen = {n: one for n, b in standing.items() if (one := unseen_of(setup, n, b))}

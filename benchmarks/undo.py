@@ -24,6 +24,8 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.places.bench import BenchPlace
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
@@ -64,7 +66,7 @@ class Bench:
         """Return the simulated world as it is."""
         from pico.backends.sim.store import load_world
 
-        return load_world(self.setup, self.folder)[0]
+        return load_world(self.setup, BenchPlace(self.folder, "sim"))[0]
 
     def movable(self) -> list[str]:
         """Return the parts that an arm may move."""
@@ -92,7 +94,7 @@ class Bench:
         """Return the last run that began to move anything."""
         from pico.runs.journal import Journal
 
-        journal = Journal(self.folder / ".pico" / "journal.sqlite")
+        journal = Journal(self.folder / ".pico/benches/sim" / "journal.sqlite")
         moving = journal.moving()
         found = [run.run for run in journal.runs() if run.run in moving]
         journal.close()
@@ -121,7 +123,7 @@ def scatter(bench: Bench) -> None:
     from pico.model.observation import ObservedValue
 
     setup = bench.setup
-    save_world(bench.folder, new_world(setup))
+    save_world(BenchPlace(bench.folder, "sim"), new_world(setup))
     world = bench.world()
     for name in bench.movable():
         start, goal = world.components[name].pose, spot(bench, name)
@@ -138,7 +140,7 @@ def scatter(bench: Bench) -> None:
             if tunable in world.components[name].values and kind.range:
                 value = ObservedValue(value=round(bench.draw.uniform(*kind.range), 1))
                 world = world.with_value(name, tunable, value)
-    save_world(bench.folder, world, durable=False)
+    save_world(BenchPlace(bench.folder, "sim"), world, durable=False)
 
 
 def near(setup: Setup, world: World, name: str) -> float:
@@ -180,7 +182,7 @@ def killed(bench: Bench, held: bool, *words: str) -> None:
     import os
     import signal
 
-    stored, late = bench.folder / ".pico" / "sim" / "world.json", bench.draw.uniform(0.0, LONGEST[bench.fidelity])
+    stored, late = bench.folder / ".pico/benches/sim" / "world.json", bench.draw.uniform(0.0, LONGEST[bench.fidelity])
     written = bench.written()
     child, until, ended, armed = forked(bench.folder, *words), time.monotonic() + PATIENCE, False, False
     while time.monotonic() < until and not ended:

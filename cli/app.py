@@ -24,7 +24,7 @@ from .errors import explain
 from .session import Session, standing
 from .terminal.output import unsaid, write
 
-EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate, --bench LAB/BENCH: `pico --help`."
+EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate, --bench NAME: `pico --help`."
 
 
 def _version(value: bool) -> None:
@@ -49,7 +49,9 @@ def root(
     ] = None,
     session_at: Annotated[
         str | None,
-        typer.Option("--bench", metavar="LAB/BENCH", help="A bench on the network, or `local`.", callback=remember),
+        typer.Option(
+            "--bench", metavar="NAME", help="Which bench: sim, emulated, hardware, or LAB/BENCH.", callback=remember
+        ),
     ] = None,
     session_emulate: Annotated[
         bool,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -12,8 +11,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
-from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR
+from pico.backends.devices import EMULATED, HARDWARE, opener
 from pico.diagnostics import PicoError, error
+from pico.places.splitting import take_report
 
 from .garbage import loaded
 from .terminal.output import write
@@ -23,8 +23,9 @@ from .views.style import inert_json, paint
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.diagnostics import Diagnostic
-    from pico.edge.network.remotes import Far
+    from pico.edge.network.remotes import Place
     from pico.history.lab_history import LabHistory
+    from pico.places.bench import BenchPlace
 
     from .standing import Standing
 
@@ -48,11 +49,11 @@ class Session:
     folder: Path = Path()
     json: bool = False
     debug: bool = False
-    backend: str = SIMULATOR
     lock_timeout: float = 0.0
     at: str | None = None
-    """The bench that is meant; None: the checkout's default."""
-    said_backend: str | None = None
+    """The bench that `--bench` names; None if it was not given."""
+    backend: str | None = None
+    """The bench that `--backend` and `--emulate` name; None if neither was given."""
     told: list[Diagnostic] = field(default_factory=list, compare=False)
 
     @classmethod
@@ -64,20 +65,46 @@ class Session:
                 text = f"`--backend {given['backend']}` has no devices that could be emulated"
                 raise PicoError(error("usage", text, hint="`--backend hardware --emulate`"))
             given["backend"] = EMULATED
-        given.setdefault("at", os.environ.get("PICO_BENCH") or None)
-        return cls(context=context, said_backend=given.get("backend"), **given)
+        return cls(context=context, **given)
 
-    def far(self, root: Path) -> Far | None:
-        """Return the bench of a coordinator that is meant; None for that of the lab in `root`. Raises PicoError."""
-        from pico.edge.network.remotes import chosen
+    def place(self, root: Path) -> Place:
+        """Return the bench that is meant for the lab in `root`, see `pico.edge.network.meant`. Raises PicoError."""
+        from pico.edge.network.meant import meant
 
-        return chosen(root, self.at)
+        return meant(root, backend=self.backend, word=self.at)
+
+    def here(self, root: Path) -> BenchPlace:
+        """Return the bench that is meant, which is to be one of this machine; raises PicoError for another."""
+        from pico.places.bench import BenchPlace
+
+        place = self.place(root)
+        if isinstance(place, BenchPlace):
+            return place
+        if place.local:  # `pico gui` serves it
+            return BenchPlace(root, place.local)
+        text = f"{place.said} is not a bench of this machine"
+        hint = "`--bench sim`, `--bench emulated` or `--bench hardware` names one of this lab"
+        raise PicoError(error("remote", text, hint=hint))
+
+    def flags(self, place: Place) -> tuple[str, ...]:
+        """Return the options with which a command typed after this one reaches a bench; none if it does without."""
+        from pico.edge.network.meant import meant, word_for
+
+        try:
+            usual = meant(place.root)
+        except PicoError:  # what this worktree chose is gone
+            usual = None
+        return () if usual == place else ("--bench", word_for(place))
 
     def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
         """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""
         from pico.bench.bench import Bench
+        from pico.manifest.load import find_lab
 
-        bench = Bench.open(self.folder, backend=self.said_backend, fidelity=fidelity, speed=speed, bench=self.at)
+        if self.backend is not None:
+            opener(self.backend)
+        place = self.place(find_lab(self.folder))
+        bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place)
         loaded()
         if bench.far is not None and not self.json:
             write(sys.stderr, paint("dim", f"on {bench.far.said}"))
@@ -87,9 +114,9 @@ class Session:
         if writing:
             from .standing import Standing
 
-            standing[:] = [Standing(bench.root)]
+            standing[:] = [Standing(bench.place)]
             self.wire(bench.root)
-        self.tell((*bench.folder.recovered, *bench.folder.proposed))
+        self.tell((*take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
@@ -102,9 +129,9 @@ class Session:
         from pico.manifest.load import find_lab
 
         root = find_lab(self.folder)
-        folder = LabFolder(root, history=True, far=self.far(root))
+        folder = LabFolder(root, history=True, place=self.place(root))
         loaded()
-        self.tell(folder.recovered)
+        self.tell((*take_report(root), *folder.recovered))
         return LabHistory(folder)
 
     def wire(self, folder: Path) -> None:

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.diagnostics import Diagnostic, warning
 from pico.disk import of_disk
+from pico.edge.network.remotes import Place
 from pico.history.git.places import places, small
 from pico.manifest.files import read_folder
 
 
 class Standing:
-    """How the lab in `root` stands: its simulated table, its manifests and HEAD. `begun`: a run began to move parts."""
+    """How a lab stands with one of its benches: the simulated table, the manifests and HEAD. `begun`: a run began."""
 
-    def __init__(self, root: Path) -> None:
-        self.root, self.begun = root, False
-        world = bench_folder(root) / "sim" / "world.json"
+    def __init__(self, place: Place) -> None:
+        root, self.place, self.begun = place.root, place, False
+        world = place.folder / "world.json"
         self.table = world.stat().st_mtime_ns if world.exists() else 0
         self.manifests = read_folder(root)[0]
         at = places(root)
@@ -30,7 +29,7 @@ class Standing:
         and does not tell why."""
         if not any(of_disk(d) or d.code == "git" for d in found):
             return [*found]
-        now = Standing(self.root)
+        now = Standing(self.place)
         said = [
             "`pico status` shows what moved" if self.begun or now.table != self.table else "nothing moved",
             "the manifests are as they were" if now.manifests == self.manifests else "manifests changed: `git diff`",

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
+from bench_at import bench_at
+
 from pico.edge.lease import BenchLock
 
 
@@ -54,8 +55,8 @@ def with_goals(lab: Path, goals: str) -> None:
 @contextmanager
 def a_run_goes_on(root: Path, what: str) -> Iterator[None]:
     """Hold the bench, in the midst of a run."""
-    mark = bench_folder(root) / "run"
-    with BenchLock(root).held(what):
+    mark = bench_at(root).folder / "run"
+    with BenchLock(bench_at(root)).held(what):
         mark.write_text("20261123T120000Z-aaaaaa")
         yield
         mark.unlink()

@@ -17,7 +17,7 @@ from ..views import proposal as view
 
 app = group(
     help="Which bench commands mean, and its own Lab, which plans go by.",
-    examples=("pico bench list", "pico bench use shel/bench1", "pico bench update --dry-run"),
+    examples=("pico bench list", "pico bench use emulated", "pico bench update --dry-run"),
 )
 
 Detailed = Annotated[bool, typer.Option("--dry-run", help="Show what differs, and adopt nothing.")]
@@ -29,11 +29,12 @@ def _group() -> None: ...
 
 @app.command("list")
 def list_(context: typer.Context) -> None:
-    """List the benches of the coordinators that this checkout knows, and who has them.
+    """List the benches of this machine and of the coordinators that this checkout knows, and who has them.
 
     Examples:
       pico bench list
     """
+    from pico.history.runs.benches import bench_states
     from pico.edge.network import remotes
     from pico.edge.network.asking import ask
     from pico.manifest.load import find_lab
@@ -47,34 +48,41 @@ def list_(context: typer.Context) -> None:
             found[name] = ask(one, "GET", "/benches")
         except PicoError as exc:  # the others are there
             away.append(exc)
-    if away and not found:
-        raise away[0]
-    session.show(benches_view, found, remotes.chosen(root, session.at))
+    session.show(benches_view, bench_states(root), found, session.place(root))
     session.tell([replace(d, severity="warning") for exc in away for d in exc.diagnostics])
 
 
 @app.command()
 def use(
     context: typer.Context,
-    bench: Annotated[str, typer.Argument(metavar="LAB/BENCH", help="As in the list; `local`: this checkout's own.")],
+    bench: Annotated[
+        str, typer.Argument(metavar="BENCH", help="`sim`, `emulated`, `hardware`, or LAB/BENCH as in the list.")
+    ],
 ) -> None:
-    """Let commands mean a bench where none is said.
+    """Choose the bench that commands mean if they name none.
 
-    Kept by this checkout, never in a commit.
+    Kept by this worktree, never in a commit. `local` is another word for `sim`. `--backend`, `--emulate` and `--bench`
+    override it for one command, `PICO_BENCH` for a shell, but that never selects the real bench. `pico test`, `pico
+    check` and scripts that name no bench never use the real one.
 
     Examples:
       pico bench use shel/bench1
-      pico bench use local
+      pico bench use emulated
+      pico bench use sim
     """
-    from pico.edge.network import remotes
+    from pico.history.runs.benches import bench_state, require_usable
+    from pico.edge.network import meant, remotes
     from pico.manifest.load import find_lab
+    from pico.places.bench import BenchPlace
+    from pico.places.choice import write_choice
 
     session = Session.of(context)
     root = find_lab(session.folder)
-    known = remotes.known(root)
-    default = "" if bench == remotes.LOCAL else "/".join(remotes.named(known, bench))
-    remotes.keep(root, replace(known, default=default))
-    session.show(meant_view, remotes.chosen(root))
+    place = meant.named_bench(root, remotes.known(root), bench)
+    notes = require_usable(place)
+    write_choice(root, meant.word_for(place))
+    session.show(meant_view, place, bench_state(place) if isinstance(place, BenchPlace) else None)
+    session.tell(notes)
 
 
 @app.command()
@@ -92,9 +100,8 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    root = find_lab(session.folder)
-    far = session.far(root)
-    found = updating.proposal(root, far)
+    place = session.place(find_lab(session.folder))
+    found = updating.proposal(place)
     if not found.new or dry_run:
         session.show(view, found, adopted=False)
         return ExitCode.DONE
@@ -103,7 +110,7 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     if not session.confirm("\nAdopt it as the bench's own Lab?", auto_approve):
         session.say("Nothing adopted: the bench stays what it is.")
         return ExitCode.ERROR
-    updating.update(root, session.backend, far)
+    updating.update(place)
     if session.json:
         session.document(view.data(found, adopted=True))
     session.say("Adopted: plans go by it from now on. `pico plan` shows what differs now.")

@@ -6,8 +6,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pico.attachment import require_attached
 from pico.diagnostics import ExitCode
+from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace
 
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, scope_of
 from ..runs.approving import declined, show
@@ -61,8 +62,8 @@ def checkout(
 
 def _go(session: Session, bench: Bench, what: str | SelectedParts, plan: Plan, before: str) -> int:
     """Bring files and bench there, and return the exit code."""
-    if plan.operations:
-        require_attached(bench.root)
+    if plan.operations and isinstance(bench.place, BenchPlace):
+        require_attached(bench.place)
     bench.history.checkout(what)
     if isinstance(what, str):
         way = f" Go back with `pico checkout {before}`." if before != bench.history.here() else ""

@@ -47,7 +47,8 @@ def commission(
         raise PicoError(error("usage", f"--valid-for is {valid_for:g} days", hint="above 0, to 366"))
     if not listed:
         session.require_answer(auto_approve)
-    walk = Walk(session.bench(writing=not listed), Person(session, auto_approve), repeats=repeats, hours=drift_hours)
+    bench = session.bench(writing=not listed)
+    walk = Walk(bench, Person(session, auto_approve, bench.backend_name), repeats=repeats, hours=drift_hours)
     if listed:
         session.show(view, walk.standing())
         return ExitCode.DONE
@@ -76,11 +77,13 @@ class Person:
 
     session: Session
     auto_approve: bool
+    name: str
+    """The device of the bench."""
 
     def say(self, text: str) -> None:
         self.session.say(text)
 
     def confirm(self, question: str, *, by_person: bool = False) -> bool:
         """Ask; what only a person can know of a real bench `--yes` does not answer."""
-        emulated = self.session.backend == EMULATED
+        emulated = self.name == EMULATED
         return self.session.confirm(question, self.auto_approve and (emulated or not by_person))

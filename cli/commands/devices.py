@@ -69,11 +69,12 @@ def identify(context: typer.Context, devices: Names = None) -> int:
 
 def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) -> int:
     from pico.backends.instruments import asked, instruments
+    from pico.manifest.load import find_lab
 
     session = Session.of(context)
     entries = instruments(session.folder, devices or ())
     with waiting("Asking the devices"):
-        rows = asked(entries, emulate=session.backend == EMULATED, whoever=whoever)
+        rows = asked(entries, emulate=session.place(find_lab(session.folder)).name == EMULATED, whoever=whoever)
     session.show(view, rows, identify=whoever)
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)

@@ -45,7 +45,6 @@ def main(context: typer.Context, fidelity: Fidelity = None, with_input: WithInpu
     if context.invoked_subcommand is not None:
         return
     from pico.edge.link.server import edge_of
-    from pico.edge.network import remotes
     from pico.edge.network.enrolment import read_enrolment
     from pico.manifest.load import find_lab
 
@@ -53,8 +52,8 @@ def main(context: typer.Context, fidelity: Fidelity = None, with_input: WithInpu
     root = find_lab(session.folder)
     if with_input:
         threading.Thread(target=_end_with_input, daemon=True).start()
-    remotes.known(root)  # puts back what a killed `pico gui` left
-    asyncio.run(_serve(session, edge_of(root, session.backend, fidelity), read_enrolment(root)))
+    place = session.here(root)  # which also puts back what a killed `pico gui` left
+    asyncio.run(_serve(session, edge_of(place, fidelity), read_enrolment(place)))
 
 
 @app.command()
@@ -70,7 +69,7 @@ def enrol(context: typer.Context, url: Url, code: Code, pin: Pin = "") -> None:
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    found = enrol(find_lab(session.folder), url, code, pin)
+    found = enrol(session.here(find_lab(session.folder)), url, code, pin)
     session.say(f"The bench is enrolled as {found.bench} at {found.url}; `pico edge` connects it.")
 
 
@@ -85,7 +84,7 @@ def withdraw(context: typer.Context) -> None:
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    withdraw(find_lab(session.folder))
+    withdraw(session.here(find_lab(session.folder)))
     session.say("The bench is enrolled with no coordinator any more.")
 
 
@@ -102,7 +101,7 @@ async def _serve(session: Session, edge: LocalEdge, enrolment: Enrolment | None)
         with waiting("Connecting to the devices"):
             devices = await _reached(edge)
         able = await edge.describe()
-        shown = (edge.setup.lab.name, able, place.make(edge.root), devices)
+        shown = (edge.setup.lab.name, able, place.make(edge.place), devices)
         await serve(edge, lambda: session.show(view, *shown), beside)
     finally:
         await edge.close()

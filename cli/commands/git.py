@@ -50,8 +50,8 @@ def attach(context: typer.Context) -> None:
     from pico.edge.lease import attach
 
     session = Session.of(context)
-    root = session.history().folder.root
-    session.show(attached, root, attach(root))
+    place = session.here(session.history().folder.root)
+    session.show(attached, place, attach(place))
 
 
 @app.command()

@@ -32,8 +32,8 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
         raise PicoError(
             error("missing-extra", f"the page needs {', '.join(missing)}", hint="pip install 'pico-lab[gui]'")
         )
-    from pico.attachment import own_folder
     from pico.manifest.load import find_lab, load_folder
+    from pico.places.lab import own_folder
     from pico.server.app import create_app
     from pico.server.desk.desks import Desking
     from pico.server.running import listening, server
@@ -49,9 +49,9 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
     if found.setup is None:
         raise PicoError(found.diagnostics)
     lab = found.setup.lab.name
-    required_free(root)
-    backend = ("--backend", session.backend) if session.said_backend else ()
-    options = (*backend, *(("--fidelity", fidelity) if fidelity else ()))
+    place = session.here(root)
+    required_free(place)
+    options = ("--fidelity", fidelity) if fidelity else ()
 
     def say(address: str) -> None:
         session.show(view, address, lab, not no_open and opened(address))
@@ -60,7 +60,7 @@ def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelit
         books = books_in(own_folder(root) / "gui")
         try:
             url = f"http://127.0.0.1:{listener.getsockname()[1]}"
-            page = Page(lab, root, books, url, options)
+            page = Page(lab, place, books, url, options)
             asyncio.run(served(page, server(create_app(books, desks=Desking(WORDS, {lab: root}, url))), listener, say))
         finally:
             books.close()

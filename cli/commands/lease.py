@@ -117,11 +117,12 @@ def _hold(session: Session, holding: Holding, token: int) -> None:
 def _holding(session: Session) -> Holding:
     """Return the lease of the bench that is meant; raises PicoError where that is not on the network."""
     from pico.edge.network.holding import Holding
+    from pico.edge.network.remotes import Far
     from pico.manifest.load import find_lab
 
-    far = session.far(find_lab(session.folder))
-    if far is None:
-        text = "the bench of this checkout is nobody else's: there is no lease to ask for"
+    far = session.place(find_lab(session.folder))
+    if not isinstance(far, Far):
+        text = f"the bench `{far.name}` of this machine is granted by nobody else: there is no lease to ask for"
         hint = "`--bench LAB/BENCH` means one on the network; `pico remote list` shows where"
         raise PicoError(error("local", text, hint=hint))
     return Holding(far)

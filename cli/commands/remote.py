@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
 from ..arguments import group
 from ..session import Session
 from ..views import remote as view
-
-if TYPE_CHECKING:
-    from pico.edge.network.remotes import Remotes
 
 app = group(
     help="The coordinators that this checkout knows, by name.",
@@ -25,7 +21,7 @@ Certificate = Annotated[
     typer.Option("--certificate", metavar="FILE", help="Its certificate (PEM), where it signed that itself."),
 ]
 Default = Annotated[
-    str, typer.Option("--default", metavar="LAB/BENCH", help="The bench that is meant where none is said.")
+    str, typer.Option("--default", metavar="LAB/BENCH", help="Choose this bench, as `pico bench use` does.")
 ]
 
 
@@ -51,29 +47,30 @@ def add(
     """
     from pico.edge.network import remotes
     from pico.manifest.load import find_lab
+    from pico.places.choice import write_choice
 
     session = Session.of(context)
     root = find_lab(session.folder)
     one = remotes.Remote(remotes.address(url), _pem(session.folder / certificate) if certificate else "")
     known = remotes.added(remotes.known(root), name, one)
-    if default:
-        known = replace(known, default="/".join(remotes.named(known, default)))
+    word = "/".join(remotes.named(known, default)) if default else ""
     remotes.keep(root, known)
-    _show(session, known)
+    if word:
+        write_choice(root, word)
+    _show(session, root)
 
 
 @app.command("list")
 def list_(context: typer.Context) -> None:
-    """List the coordinators, and the bench that is meant where none is said.
+    """List the coordinators, and the bench that commands mean if they name none.
 
     Examples:
       pico remote list
     """
-    from pico.edge.network import remotes
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    _show(session, remotes.known(find_lab(session.folder)))
+    _show(session, find_lab(session.folder))
 
 
 @app.command()
@@ -83,20 +80,26 @@ def remove(context: typer.Context, name: Name) -> None:
     Examples:
       pico remote remove lab
     """
+    from pico.backends.devices import SIMULATOR
     from pico.edge.network import remotes
     from pico.manifest.load import find_lab
+    from pico.places.choice import read_choice, write_choice
 
     session = Session.of(context)
     root = find_lab(session.folder)
-    known = remotes.removed(remotes.known(root), name)
-    remotes.keep(root, known)
-    _show(session, known)
+    remotes.keep(root, remotes.removed(remotes.known(root), name))
+    if read_choice(root).startswith(f"{name}/"):
+        write_choice(root, SIMULATOR)
+    _show(session, root)
 
 
-def _show(session: Session, known: Remotes) -> None:
+def _show(session: Session, root: Path) -> None:
+    from pico.edge.network import remotes
     from pico.edge.network.tokens import token_of
 
-    session.show(view, known, {name for name, one in known.named.items() if token_of(one.url)})
+    known = remotes.known(root)
+    tokens = {name for name, one in known.named.items() if token_of(one.url)}
+    session.show(view, known, tokens, session.place(root))
 
 
 def _pem(path: Path) -> str:

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from pico.backends.devices import SIMULATOR
 from pico.diagnostics import PicoError, error
+from pico.places.bench import BenchPlace
 
 from ..session import Session
 from ..views import serving as view
@@ -107,6 +109,6 @@ async def _demonstrate(session: Session, serving: Any, listener: Any, books: Boo
     """Serve with a bench that is not there."""
     from ..runs.demonstration import Demonstration, served
 
-    shown = Demonstration(lab, books.folder / lab, books, url)
+    shown = Demonstration(lab, BenchPlace(books.folder / lab, SIMULATOR), books, url)
     shown.make()
     await served(shown, serving, listener, lambda told: session.show(view, url, books.folder, None, told))

@@ -27,5 +27,4 @@ def stop(context: typer.Context, now: Now = False) -> None:
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    root = find_lab(session.folder)
-    session.show(view, *stop(root, now=now, far=session.far(root)))
+    session.show(view, *stop(session.place(find_lab(session.folder)), now=now))

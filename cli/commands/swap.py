@@ -57,15 +57,14 @@ def swap(
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    root = find_lab(session.folder)
+    place = session.place(find_lab(session.folder))
     if len(serial) > MOST or not serial.isprintable():
         text = f"`{''.join(c if c.isprintable() else '?' for c in serial[:40])}` is no serial number"
         raise PicoError(error("usage", text, hint=f"what stands on the part, in one line of at most {MOST} characters"))
     own = {"focal_length": focal_length, "retardance": retardance}
     given = _pairs([*(parameter or ()), *(f"{key}={value}" for key, value in own.items() if value)])
     known = _known(given, sigma, measured, valid_for)
-    far = session.far(root)
-    found = updating.swapped(root, name, serial, kind, given, known, far)
+    found = updating.swapped(place, name, serial, kind, given, known)
     if dry_run or found.same:
         session.show(view, found, done=False)
         return ExitCode.DONE
@@ -74,7 +73,7 @@ def swap(
     if not session.confirm(f"\nTake {serial} as the specimen in {name}?", auto_approve):
         session.say("Nothing was swapped.")
         return ExitCode.ERROR
-    updating.swap(root, session.backend, found, far)
+    updating.swap(place, found)
     if session.json:
         session.document(view.data(found, done=True))
     session.say("Swapped: `pico optimize` lists which goals are stale now. Swapping back undoes it.")

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from ..session import Session
 from ..terminal import waiting as slow
 from ..views import validation as view
+
+if TYPE_CHECKING:
+    from pico.diagnostics import Diagnostic
 
 
 def validate(
@@ -27,7 +30,6 @@ def validate(
     Examples:
       pico validate
     """
-    from pico.bench.updating import waiting
     from pico.diagnosis.claims import check_carried
     from pico.history.lab.missing_files import missing_files
     from pico.history.merge.checked import overlapping
@@ -49,7 +51,7 @@ def validate(
             *check_spans(read),
             *check_carried(read),
             *doubts_in(root, read),
-            *waiting(root),
+            *_waiting(session, root),
         ],
         missing_files,
     )
@@ -59,3 +61,12 @@ def validate(
     session.tell(checked.diagnostics)
     session.show(view, checked)
     return checked.exit_code
+
+
+def _waiting(session: Session, root: Path) -> tuple[Diagnostic, ...]:
+    """Return what the files propose to the bench of this machine that is meant."""
+    from pico.bench.updating import waiting
+    from pico.places.bench import BenchPlace
+
+    place = session.place(root)
+    return waiting(place) if isinstance(place, BenchPlace) else ()

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.diagnostics import PicoError, error
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.server.store.books import Books
@@ -34,13 +34,14 @@ class Demonstrated:
 
 
 class Demonstration:
-    """The bench of the lab in `root`, called `lab`, at a coordinator that serves `books` at `url`; `person` is let in.
+    """The bench at `place`, of the lab called `lab`, at a coordinator that serves `books` at `url`; `person` is let in.
     `options`: of `pico edge`."""
 
     def __init__(
-        self, lab: str, root: Path, books: Books, url: str, person: str = PERSON, options: tuple[str, ...] = ()
+        self, lab: str, place: BenchPlace, books: Books, url: str, person: str = PERSON, options: tuple[str, ...] = ()
     ) -> None:
-        self._lab, self._root, self._books, self._url = lab, root, books, url
+        self._lab, self._place, self._books, self._url = lab, place, books, url
+        self._root = place.root
         self._person, self._options = person, options
         self._process: subprocess.Popen[bytes] | None = None
 
@@ -64,16 +65,17 @@ class Demonstration:
         from pico.server.store.first import ADMIN
 
         books, bench = self._books, f"{self._lab}/bench1"
-        known = await asyncio.to_thread(read_enrolment, self._root)
+        known = await asyncio.to_thread(read_enrolment, self._place)
         if known is None or known.url != self._url or bench not in books.leases.enrolled():
             code, _ = await books.do(Edges(books.database).invited, bench, ADMIN)
-            await asyncio.to_thread(enrol, self._root, self._url, code)
+            await asyncio.to_thread(enrol, self._place, self._url, code)
         rights = [Right("*", "admin"), *(Right(self._lab, role) for role in ROLES if role != "admin")]
         await books.do(books.people.settled, self._person, rights, by=ADMIN)
         made = await books.do(
             books.people.issued, self._person, 86400.0, by=ADMIN, kind="code", label="on this machine"
         )
-        words = [sys.executable, "-P", "-m", "pico_cli", "-C", str(self._root), "edge", "--with-input", *self._options]
+        words = [sys.executable, "-P", "-m", "pico_cli", "-C", str(self._root), "--bench", self._place.name]
+        words += ["edge", "--with-input", *self._options]
         self._process = subprocess.Popen(  # the pipe ends with this process, whatever ends that
             words, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, start_new_session=True
         )

@@ -9,10 +9,9 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.backends.devices import EMULATED, HARDWARE
 from pico.diagnostics import ExitCode, PicoError
 from pico.disk import writing
-from pico.edge.network.remotes import LOCAL
+from pico.edge.network.meant import word_for
 
 from ..session import Session
 
@@ -28,7 +27,7 @@ def leave(session: Session, bench: Bench, log: Log, unattended: bool) -> None:
     """Have a process of its own go on with a run of a recipe that was begun; raises PicoError where what it says can't
     be kept."""
     words = [sys.executable, "-P", "-m", str(__package__).partition(".")[0], "-C", str(bench.root)]
-    words += ["--bench", _bench(session, bench), *_backend(bench)]
+    words += ["--bench", word_for(bench.place)]
     words += ["run", "--resume", log.about.name, "--yes", *(["--unattended"] if unattended else [])]
     words += ["--fidelity", bench.fidelity] if bench.asked else []
     with writing(_said(log.path)), _said(log.path).open("wb") as said:
@@ -43,7 +42,7 @@ def left(bench: Bench, word: str | None) -> Path | None:
     None where there is none, or the last one where None and it goes on."""
     from pico.recipes.log import logs
 
-    for path in logs(bench.side):
+    for path in logs(bench.place):
         if _said(path).exists() and (
             _goes_on(path) if word is None else path.stem.startswith(word) or path.stem.endswith(word)
         ):
@@ -81,15 +80,3 @@ def _goes_on(path: Path) -> bool:
 
 def _said(path: Path) -> Path:
     return path.with_suffix(".out")
-
-
-def _bench(session: Session, bench: Bench) -> str:
-    if bench.far is None:
-        return LOCAL
-    return session.at or f"{bench.far.remote.url}/{bench.far.name}"
-
-
-def _backend(bench: Bench) -> list[str]:
-    if bench.far is not None:  # it is what it is
-        return []
-    return ["--backend", HARDWARE, "--emulate"] if bench.backend_name == EMULATED else ["--backend", bench.backend_name]

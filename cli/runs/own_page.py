@@ -7,10 +7,10 @@ import contextlib
 import getpass
 import re
 import webbrowser
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.places.bench import BenchPlace
 
 from .demonstration import Demonstration
 
@@ -18,18 +18,18 @@ if TYPE_CHECKING:
     from pico.server.store.books import Books
 
 
-def required_free(root: Path) -> None:
-    """Raise PicoError where the bench of the lab in `root` is another coordinator's, or somebody serves it already."""
+def required_free(bench: BenchPlace) -> None:
+    """Raise PicoError if a bench is another coordinator's, or somebody serves it already."""
     from pico.edge.link import place
     from pico.edge.network import remotes
     from pico.edge.network.enrolment import read_enrolment
 
-    mine = remotes.known(root).named.get(remotes.PAGE)  # puts back what a killed one left
-    known = read_enrolment(root)
+    mine = remotes.known(bench.root).named.get(remotes.PAGE)  # puts back what a killed one left
+    known = read_enrolment(bench)
     if known is not None and (mine is None or mine.url != known.url):
         hint = f"open {known.url} in the browser; `pico edge withdraw` takes the bench from there"
         raise PicoError(error("enrolled", f"this bench is enrolled as {known.bench} at {known.url}", hint=hint))
-    if place.find(root) is not None:
+    if place.find(bench) is not None:
         text = "somebody serves this bench already"
         raise PicoError(
             error("locked", text, hint="end that first (`pico edge`, or another `pico gui`)"), ExitCode.LOCKED
@@ -43,14 +43,14 @@ def person() -> str:
 
 
 class Page:
-    """The page for the lab in `root`, called `lab`, at `url`; raises PicoError where another page has it."""
+    """The page for a bench of the lab called `lab`, at `url`; raises PicoError where another page has it."""
 
-    def __init__(self, lab: str, root: Path, books: Books, url: str, options: tuple[str, ...]) -> None:
+    def __init__(self, lab: str, place: BenchPlace, books: Books, url: str, options: tuple[str, ...]) -> None:
         from pico.edge.network.own_page import OwnPage
 
         self._books, self._url = books, url
-        self._own = OwnPage(root, url)
-        self._bench = Demonstration(lab, root, books, url, person(), options)
+        self._own = OwnPage(place, url)
+        self._bench = Demonstration(lab, place, books, url, person(), options)
 
     async def begin(self) -> str:
         """Connect the bench, let commands in the folder go through the page's coordinator, and return the address of

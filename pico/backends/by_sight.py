@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.attempt import Failed
@@ -14,6 +13,7 @@ from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import MovePath
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.look_again import Take
@@ -26,21 +26,21 @@ class BySight:
     is looked at, in the regions of the pictures (`take`) where it should be.
 
     `felt`: what is known without looking, given what hands took; `left`: where an eye in a hand saw a component when
-    the hand let go of it. `bench`: whose memory of hands this is, see `pico.backends.last_seen`. `corrections`: how
+    the hand let go of it. `place`: whose memory of hands this is, see `pico.backends.last_seen`. `corrections`: how
     often a part is set right that was put down wrongly.
     """
 
     corrections = 2
 
     def __init__(
-        self, setup: Setup, root: Path, felt: Callable[[Mapping[str, Taken]], Observation], look: Callable[[], Look],
-        take: Take, left: Callable[[str], InHand | None] = lambda component: None, bench: str = "",
+        self, setup: Setup, place: BenchPlace, felt: Callable[[Mapping[str, Taken]], Observation],
+        look: Callable[[], Look], take: Take, left: Callable[[str], InHand | None] = lambda component: None,
     ) -> None:  # fmt: skip
-        self._setup, self._root, self._felt, self._look = setup, root, felt, look
-        self._take, self._left, self._bench = take, left, bench
+        self._setup, self._place, self._felt, self._look = setup, place, felt, look
+        self._take, self._left = take, left
         self._looked: Look | None = None
         self._parts: dict[str, ObservedComponent] = {}
-        self._taken = recall_hands(root, bench)
+        self._taken = recall_hands(place)
 
     def seen(self) -> Observation:
         """Return the table as it was last seen, with joints and hands as they are now; looks where it never did.
@@ -77,7 +77,7 @@ class BySight:
         if grip is not None and stands is not None:
             tool = tool_of(self._setup.lab.robots[path.robot], grip.joints[-1])
             self._taken[path.robot] = Taken(component=component, pose=tool.inverse().compose(stands))
-            remember_hands(self._root, self._taken, self._bench)
+            remember_hands(self._place, self._taken)
 
     def lets_go(self, component: str, path: MovePath, now: float) -> None:
         """Remember where a hand on `path` is about to let go of a component, for who comes after: where this process is
@@ -87,7 +87,7 @@ class BySight:
         if release is not None and taken is not None and taken.component == component:
             pose = tool_of(self._setup.lab.robots[path.robot], release.joints[-1]).compose(taken.pose)
             there = LastSeen(pose=pose, uncertainty=repeated(self._setup, component), time=now, placed=True)
-            remember(self._root, {**recall(self._root, self._bench), component: there}, self._bench)
+            remember(self._place, {**recall(self._place), component: there})
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         """Look from above at a part that was put down near a pose, or lost, and return it; where the arm hides it, the

@@ -1,5 +1,5 @@
 """Which devices there are: the rooms beside this file, and what plug-ins add by an entry point of the group
-`pico.devices`. Each gives `opened(setup, root, fidelity, clock)`, which returns a `Device` or raises PicoError."""
+`pico.devices`. Each gives `opened(setup, place, fidelity, clock)`, which returns a `Device` or raises PicoError."""
 
 from __future__ import annotations
 
@@ -13,8 +13,9 @@ from pico.diagnostics import PicoError, did_you_mean, error
 if TYPE_CHECKING:
     from pico.backends.device import Device
     from pico.model.setup import Setup
+    from pico.places.bench import BenchPlace
 
-Opener = Callable[["Setup", Path, str, Callable[[], str]], "Device"]
+Opener = Callable[["Setup", "BenchPlace", str, Callable[[], str]], "Device"]
 GROUP = "pico.devices"
 SIMULATOR = "sim"
 """The device of who asks for none, and of trials."""
@@ -25,6 +26,13 @@ HARDWARE, EMULATED = "hardware", "emulated"
 def shipped() -> list[str]:
     """Return the names of the devices that come with PICO."""
     return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__init__.py"))
+
+
+def known_devices() -> list[str]:
+    """Return the names of all devices: those that come with PICO, and those of plug-ins."""
+    from importlib.metadata import entry_points
+
+    return [*shipped(), *sorted(entry.name for entry in entry_points(group=GROUP))]
 
 
 def opener(name: str) -> Opener:

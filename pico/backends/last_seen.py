@@ -1,8 +1,7 @@
 """Where the parts of a bench were last: what the cameras saw of them, where an arm put them down since, and which ones
 hands took.
 
-Kept as `.pico/seen.json` and `.pico/hands.json` beside the lab, so that a part that something hides is not lost, and
-of a bench that is not simulated in a folder of its own there (`bench`). It is
+Kept as `seen.json` and `hands.json` in the folder of the bench, so that a part that something hides is not lost. It is
 no truth: whoever looks asks the cameras first, and the pads say whether a hand holds anything.
 """
 
@@ -14,7 +13,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
 from pico.diagnostics import PicoError
 from pico.disk import write_whole
 from pico.model.observation import Observation, Uncertainty
@@ -22,6 +20,7 @@ from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import Format, as_json, record
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 FORMAT = Format("pico.seen")
 HANDS = Format("pico.hands")
@@ -53,10 +52,10 @@ class Taken:
     pose: Pose
 
 
-def recall_hands(root: Path, bench: str = "") -> dict[str, Taken]:
+def recall_hands(place: BenchPlace) -> dict[str, Taken]:
     """Return what hands took last, by robot; nothing where that is not known."""
     try:
-        data = HANDS.lifted(json.loads(_hands_path(root, bench).read_text(encoding="utf-8")))
+        data = HANDS.lifted(json.loads(_hands_path(place).read_text(encoding="utf-8")))
         return {
             robot: Taken(component=str(taken["component"]), pose=Pose(**taken["pose"]))
             for robot, taken in data["hands"].items()
@@ -65,9 +64,9 @@ def recall_hands(root: Path, bench: str = "") -> dict[str, Taken]:
         return {}
 
 
-def remember_hands(root: Path, hands: Mapping[str, Taken], bench: str = "") -> None:
+def remember_hands(place: BenchPlace, hands: Mapping[str, Taken]) -> None:
     """Keep what hands take, before they do; where that can't be written, the journal still knows the component."""
-    _write(_hands_path(root, bench), {"schema": HANDS.schema, "hands": as_json(hands)})
+    _write(_hands_path(place), {"schema": HANDS.schema, "hands": as_json(hands)})
 
 
 def repeated(setup: Setup, component: str) -> Uncertainty:
@@ -85,19 +84,19 @@ def placed_at(setup: Setup, operation: Operation, result: OperationResult) -> La
     return LastSeen(pose=pose, uncertainty=repeated(setup, name), time=time, placed=True)
 
 
-def _hands_path(root: Path, bench: str) -> Path:
-    return bench_folder(root) / bench / "hands.json"
+def _hands_path(place: BenchPlace) -> Path:
+    return place.folder / "hands.json"
 
 
-def memory_path(root: Path, bench: str = "") -> Path:
-    """Return where the memory of the lab in folder `root` is kept."""
-    return bench_folder(root) / bench / "seen.json"
+def memory_path(place: BenchPlace) -> Path:
+    """Return where the memory of a bench is kept."""
+    return place.folder / "seen.json"
 
 
-def recall(root: Path, bench: str = "") -> dict[str, LastSeen]:
+def recall(place: BenchPlace) -> dict[str, LastSeen]:
     """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
     try:
-        data = FORMAT.lifted(json.loads(memory_path(root, bench).read_text(encoding="utf-8")))
+        data = FORMAT.lifted(json.loads(memory_path(place).read_text(encoding="utf-8")))
         return {
             name: LastSeen(
                 pose=Pose(**part["pose"]),
@@ -126,9 +125,9 @@ def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen
     return {**last, **fresh}
 
 
-def remember(root: Path, parts: Mapping[str, LastSeen], bench: str = "") -> None:
+def remember(place: BenchPlace, parts: Mapping[str, LastSeen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    _write(memory_path(root, bench), {"schema": FORMAT.schema, "parts": as_json(parts)})
+    _write(memory_path(place), {"schema": FORMAT.schema, "parts": as_json(parts)})
 
 
 def _write(path: Path, document: Mapping[str, Any]) -> None:

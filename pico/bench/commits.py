@@ -19,6 +19,7 @@ from pico.bench.in_use import in_use
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.edge.network.opening import remembered
+from pico.edge.network.remotes import Place
 from pico.history import runs as recording
 from pico.history.lab.contents import Contents, contents, nothing
 from pico.history.lab.contents import commit as committed
@@ -170,6 +171,12 @@ def _kept(folder: LabFolder, seen: Observation, named: Named | None) -> tuple[st
     return tuple(a for a in missed if named is None or holds(named, a.partition(".")[0], a.partition(".")[2]))
 
 
+def _place(folder: LabFolder) -> Place:
+    """Return the bench whose state is captured or committed."""
+    assert folder.place is not None, "a bench that is open has a place"
+    return folder.place
+
+
 def _uncarried(folder: LabFolder) -> tuple[Diagnostic, ...]:
     """Return the claims of the lab that the tolerances of what was committed do not carry; looked at where there are
     any."""
@@ -184,7 +191,7 @@ def _unaligned(folder: LabFolder, seen: Observation, state: LabState) -> Mapping
     """Return the set-points of a state that light has yet to find here, each with why."""
     if not references_of(state):
         return {}
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(_place(folder)) as memory:
         return unaligned(folder.setup, memory, seen, state)
 
 
@@ -192,7 +199,7 @@ def _goals(folder: LabFolder, seen: Observation, state: LabState) -> Mapping[str
     """Return how goals stand that have light, or were sought; None where there are none."""
     if not (folder.setup.lab.goals or references_of(state)):
         return None
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(_place(folder)) as memory:
         found = goals_stand(folder.setup, memory, seen, state, timed=False)
     told = [one for one in found if one.order is not None or one.status != "never measured"]
     stood = {one.goal: GoalStood(status=one.status, why=one.why, at=one.at, last=one.last) for one in told}
@@ -208,7 +215,7 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
         return
     components = contents(folder, named).components if named else None
     committed = folder.committed()
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(_place(folder)) as memory:
         if committed is not None:
             missed = unaligned(folder.setup, memory, seen, folder.state)
             refuse_unapplied(folder.setup, committed, folder.state, seen, components, unaligned=missed)
@@ -266,7 +273,7 @@ def _evidence(
     documents = [data for path, data in runs.items() if path.endswith("/run.json")]
     changed = {(c.component, c.tunable) for c in changes} | changed_by(documents)
     before = _before(folder)
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(_place(folder)) as memory:
         return evidence(folder.setup, memory, seen, state, changed, observed=observed, before=before)
 
 
@@ -275,7 +282,7 @@ def _hands(
 ) -> list[str] | None:
     """Return what a hand changed of that which a commit changes, by address; None where its runs changed all."""
     made = {(c.component, c.tunable): c.tolerated for c in changes}
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(_place(folder)) as memory:
         found = by_hand(
             folder.setup,
             memory,

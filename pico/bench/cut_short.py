@@ -24,7 +24,7 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     held = [f"{name} holds {robot.holding}" for name, robot in sorted(seen.robots.items()) if robot.holding]
     if not (killed or held) or opened.wait(opened.edge.holder()) is not None:
         return ()
-    with remembered(opened.root, opened.far) as memory:
+    with remembered(opened.place) as memory:
         moved = memory is None or killed in memory.moving()
         last = memory.last() if memory else None
     early = "" if moved else " before it began an operation"
@@ -98,7 +98,7 @@ def _goes_on_with(last: RunRecord | None) -> str:
 
 def _last(opened: Opened) -> RunRecord | None:
     try:
-        with remembered(opened.root, opened.far) as memory:
+        with remembered(opened.place) as memory:
             return memory.last() if memory else None
     except PicoError:  # looking must not fail for a journal that can't be read
         return None

@@ -109,7 +109,7 @@ class Mornings:
             raise PicoError(error(UNARMED, text, hint=hint, address=laser), ExitCode.DENIED)
         nominal = self._nominal(seen)
         cameras = tuple(n for n in sorted(nominal.poses) if "dark" in opened.setup.measurables_of(n))
-        reference, why = reference_for(opened.side, nominal)
+        reference, why = reference_for(opened.place, nominal)
         before = reference.quantities if reference else ()
         what = nominal.kept("chosen", repr(before), lambda: chosen(nominal, before))
         quantities = reference.quantities if reference else (*what.quantities, *darks(nominal, cameras))
@@ -188,7 +188,7 @@ class Mornings:
         if lit and not read.cut_short and (accept or survey.reference is None):
             nominal = survey.nominal
             keep(
-                self.opened.side, Reference(found.at, found.run, nominal.poses, nominal.values, survey.quantities, got)
+                self.opened.place, Reference(found.at, found.run, nominal.poses, nominal.values, survey.quantities, got)
             )
             found = replace(found, accepted=True)
         return found

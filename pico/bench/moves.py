@@ -53,7 +53,7 @@ class Moves:
     def left(self, plan: Plan, **options: Any) -> Execution:
         """Return the run of a plan that is to be left to the process that serves the bench; raises PicoError where this
         process is the bench."""
-        if line_of(self.opened.root, self.opened.far) is None:
+        if line_of(self.opened.place) is None:
             text = "this process is the bench: what it runs ends with it"
             hint = "`pico edge` in another terminal serves it, or `--bench LAB/BENCH` means one that is"
             raise PicoError(error("detach", text, hint=hint))

@@ -10,11 +10,12 @@ from collections.abc import Coroutine
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
-from pico.backends.devices import EMULATED, SIMULATOR, opener
+from pico.backends.devices import HARDWARE, SIMULATOR, opener
 from pico.bench.running.loop import LoopThread
-from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.diagnostics import PicoError, did_you_mean, error
+from pico.edge.network.meant import meant
 from pico.edge.network.opening import holder_of
-from pico.edge.network.remotes import chosen
+from pico.edge.network.remotes import Far, Place
 from pico.history.lab.folder import LabFolder
 from pico.history.lab_history import LabHistory
 from pico.manifest.load import find_lab
@@ -22,10 +23,10 @@ from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.model.state import LabState
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.world import World
-    from pico.edge.network.remotes import Far
     from pico.edge.protocol import Edge
 
 T = TypeVar("T")
@@ -34,9 +35,10 @@ T = TypeVar("T")
 class Opened:
     """One bench, opened by `open`: all that its services stand on. Close it when done; it opens again by itself."""
 
-    def __init__(self, folder: LabFolder, fidelity: str | None = None, backend: str | None = None) -> None:
-        self.folder, self.history = folder, LabHistory(folder)
-        self.backend_name = backend or SIMULATOR
+    def __init__(self, folder: LabFolder, place: Place, fidelity: str | None = None) -> None:
+        self.folder, self.history, self.place = folder, LabHistory(folder), place
+        self.backend_name = place.name
+        """The device of the bench, such as `sim`; of one at a coordinator once that was asked."""
         self.fidelity = fidelity or folder.setup.lab.sim.fidelity
         self.asked = fidelity is not None
         """Whether somebody asked for this fidelity."""
@@ -56,33 +58,39 @@ class Opened:
         backend: str | None = None,
         fidelity: str | None = None,
         speed: float | None = None,
-        bench: str | None = None,
+        bench: str | Place | None = None,
     ) -> Self:
         """Open the lab that `path` lies in. Nothing is contacted yet, but for a bench on the network.
 
-        `backend`: `sim`, that where None; `hardware` says what it lacks. `fidelity`: `kinematic` or `physics`, the
-        lab's own word where None. `speed`: share of the joint limits for every robot, instead of the lab's. `bench`:
-        LAB/BENCH of a remote, or `pico://host/LAB/BENCH`, with the backend that it has; `local` for the checkout's own.
-        Raises PicoError.
+        `bench`: `sim`, `emulated`, `hardware`, LAB/BENCH of a remote, or `pico://host/LAB/BENCH`; without it the one
+        that `PICO_BENCH` or this worktree chose (`pico bench use`), but for the real one, which must be named here.
+        `backend`: the bench of this machine with that device. `fidelity`: `kinematic` or `physics`, the lab's own word
+        where None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
         """
-        _require_backend(backend or SIMULATOR, fidelity, speed)
+        _require_fitting(fidelity, speed)
+        if backend is not None:
+            opener(backend)
         root = find_lab(Path(path))
-        folder = LabFolder(root, bench=True, far=chosen(root, bench))
+        place = bench if isinstance(bench, BenchPlace | Far) else meant(root, backend=backend, word=bench)
+        if not (bench or backend) and isinstance(place, BenchPlace) and place.name == HARDWARE:
+            hint = 'open it with `bench="hardware"`; `bench="sim"` is the simulator'
+            text = "this worktree chose the real bench, and a script must name that itself"
+            raise PicoError(error("backend", text, hint=hint))
+        folder = LabFolder(root, place=place, keeps=True)
         folder.setup = folder.setup.at_speed(speed)
-        opened = cls(folder, fidelity, backend)
+        opened = cls(folder, place, fidelity)
         opened.speed = speed
-        if folder.far is not None:
-            opened._require_far(backend)
-        elif opened.backend_name != SIMULATOR:
+        if isinstance(place, Far):
+            opened._require_far(place, backend)
+        elif place.name != SIMULATOR:
             _ = opened.edge  # says what is missing
         return opened
 
-    def _require_far(self, backend: str | None) -> None:
+    def _require_far(self, far: Far, backend: str | None) -> None:
         """Be what the bench of a coordinator is; raises PicoError where somebody asked for another backend."""
         able = self.wait(self.edge.describe())
         if backend not in (None, able.name):
-            assert self.far is not None
-            text = f"{self.far.said} is a {able.name} bench, and this is for a {backend} one"
+            text = f"{far.said} is a {able.name} bench, and this is for a {backend} one"
             raise PicoError(error("backend", text, hint="leave --backend out: the bench is what it is"))
         self.backend_name = able.name
         if not self.asked:
@@ -90,13 +98,8 @@ class Opened:
 
     @property
     def far(self) -> Far | None:
-        """The bench of a coordinator that this is; None for that of the folder."""
-        return self.folder.far
-
-    @property
-    def side(self) -> Path:
-        """Where this checkout keeps what is its own of the bench: logs of recipes, mornings."""
-        return self.root if self.far is None else self.far.folder
+        """The bench of a coordinator that this is; None for one of this machine."""
+        return self.place if isinstance(self.place, Far) else None
 
     @property
     def root(self) -> Path:
@@ -115,15 +118,12 @@ class Opened:
 
     @property
     def edge(self) -> Edge:
-        """The edge, made when it is first needed; raises PicoError where its device can't be had, and where another
-        bench of this lab is served than is asked for."""
+        """The edge, made when it is first needed; raises PicoError if its device can't be had."""
         if self._edge is None:
             from pico.edge.network.opening import opened, served
 
-            able = None if self.far is not None else served(self.root)
-            if able is not None and able.name != self.backend_name:
-                raise PicoError(_another(self.setup.lab.name, able.name, self.backend_name))
-            self._edge = opened(self.setup, self.root, self.backend_name, self.fidelity, self.folder.own, self.far)
+            able = None if self.far is not None else served(self.place)
+            self._edge = opened(self.setup, self.place, self.fidelity, self.folder.own)
             if able is not None and not self.asked:
                 self.fidelity = able.fidelity
         return self._edge
@@ -159,7 +159,7 @@ class Opened:
         from pico.edge.lease import wait_until_free
 
         self.lock_timeout = seconds
-        self.wait(wait_until_free(lambda: holder_of(self.root, self.far), seconds))
+        self.wait(wait_until_free(lambda: holder_of(self.place), seconds))
 
     def close(self) -> None:
         """Let go of the edge and end its thread; one left busy by Ctrl-C is not waited for."""
@@ -177,14 +177,7 @@ class Opened:
         self.close()
 
 
-def _another(lab: str, served: str, asked: str) -> Diagnostic:
-    words = {EMULATED: "--backend hardware --emulate"}.get(served, f"--backend {served}")
-    text = f"{lab} is served as its {served} bench, and this is for its {asked} one"
-    return error("backend", text, hint=f"add `{words}`, or end the `pico edge` that serves it")
-
-
-def _require_backend(backend: str, fidelity: str | None, speed: float | None) -> None:
-    opener(backend)
+def _require_fitting(fidelity: str | None, speed: float | None) -> None:
     if fidelity not in (None, "kinematic", "physics"):
         known = ["kinematic", "physics"]
         raise PicoError(error("fidelity", f"there is no fidelity `{fidelity}`", hint=did_you_mean(fidelity, known)))

@@ -27,7 +27,7 @@ from pico.model.record import record
 
 if TYPE_CHECKING:
     from pico.bench.importing import Imported
-    from pico.edge.network.remotes import Far
+    from pico.edge.network.remotes import Place
 
 DOING = "pico bench update"
 
@@ -67,13 +67,12 @@ class Proposal:
         return bool(self.patch)
 
 
-def proposal(root: Path, far: Far | None = None) -> Proposal:
-    """Return what the working tree of the lab in `root` proposes to its bench, or to one of a coordinator (`far`);
-    nothing new where that keeps no Lab yet. Raises PicoError for what is wrong with either."""
-    tree = own_lab.proposed(root)
+def proposal(place: Place) -> Proposal:
+    """Return what the working tree proposes to a bench; nothing new if that keeps no Lab yet. Raises PicoError."""
+    tree = own_lab.proposed(place.root)
     wanted = own_lab.setup_of(tree)
     try:
-        own = kept(root, far) or tree
+        own = kept(place) or tree
         now = own_lab.setup_of(own)
     except PicoError as exc:
         if exc.diagnostics[0].code != own_lab.CODE:
@@ -84,10 +83,10 @@ def proposal(root: Path, far: Far | None = None) -> Proposal:
     return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
 
 
-def waiting(root: Path) -> tuple[Diagnostic, ...]:
-    """Return that the working tree of a lab proposes another bench than its own keeps, if so."""
+def waiting(place: Place) -> tuple[Diagnostic, ...]:
+    """Return that the working tree of a lab proposes another bench than `place` keeps, if so."""
     with suppress(PicoError):
-        found = proposal(root)
+        found = proposal(place)
         if found.differences:
             told = ", ".join(found.differences)
             hint = "`pico bench update` shows it, and lets the bench adopt it; until then plans go by the old one"
@@ -95,19 +94,19 @@ def waiting(root: Path) -> tuple[Diagnostic, ...]:
     return ()
 
 
-def update(root: Path, backend: str, far: Far | None = None) -> None:
-    """Let the bench of the lab in `root`, or `far`, adopt what the working tree describes; raises PicoError as
+def update(place: Place) -> None:
+    """Let a bench adopt what the working tree describes; raises PicoError as
     `Edge.adopt`."""
-    tree = own_lab.proposed(root)
+    tree = own_lab.proposed(place.root)
     try:
-        own = kept(root, far) or tree
+        own = kept(place) or tree
         setup = own_lab.setup_of(own)
     except PicoError as exc:
         if exc.diagnostics[0].code != own_lab.CODE:
             raise
         own, setup = tree, own_lab.setup_of(tree)
     thread = LoopThread()
-    edge = opened(setup, root, backend, setup.lab.sim.fidelity, own, far)
+    edge = opened(setup, place, setup.lab.sim.fidelity, own)
     try:
         thread.wait(edge.adopt(tree, DOING))
     finally:
@@ -116,22 +115,21 @@ def update(root: Path, backend: str, far: Far | None = None) -> None:
 
 
 def swapped(
-    root: Path, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None,
-    far: Far | None = None,
+    place: Place, name: str, serial: str, kind: str | None, parameters: Mapping[str, Value], known: Known | None = None,
 ) -> Swap:  # fmt: skip
     """Return what exchanging the specimen of a part changes in the bench's own Lab and in the tree's files; nothing is
     written. Raises PicoError for what would not be right in either, or in the state beside them."""
     from pico.manifest.exchange import exchanged
 
-    tree = own_lab.proposed(root)
-    own = kept(root, far) or tree
+    tree = own_lab.proposed(place.root)
+    own = kept(place) or tree
     made = []
     for lab in (own, tree):
         files = exchanged(lab.as_bytes(), name, serial, kind, parameters, known)
         new = replace(lab, files={**lab.files, **own_lab.of_files(files).files})
         own_lab.setup_of(replace(new, at=""))  # what it would be: nothing that is kept is wrong
         made.append(new)
-    _require_state(root, made[1], name)
+    _require_state(place.root, made[1], name)
     setup = own_lab.setup_of(own)
     before = setup.lab.inventory[name]
     kept_as = {k: v for k, v in (before.parameters or {}).items() if k not in parameters}
@@ -154,21 +152,22 @@ def _require_state(root: Path, tree: OwnLab, name: str) -> None:
         raise PicoError([error("swap", text, hint=hint), *wrong])
 
 
-def swap(root: Path, backend: str, change: Swap, far: Far | None = None) -> None:
-    """Write the specimen into the tree of the lab in `root`, and let its bench have it; raises PicoError, of a bench
+def swap(place: Place, change: Swap) -> None:
+    """Write the specimen into the tree of the lab, and let its bench have it; raises PicoError, of a bench
     that does not take it with the tree as it was, and where either was changed since `change` was made.
 
     The tree is written first: killed in between, it proposes the specimen to the bench, and `pico bench update` does
     the rest. The other way round that would put the one before back."""
-    again = swapped(root, change.name, change.after, change.kind, change.parameters, change.known, far)
+    root = place.root
+    again = swapped(place, change.name, change.after, change.kind, change.parameters, change.known)
     if again != change:
         text = "lab.yaml or the bench was changed meanwhile, so nothing was swapped"
         raise PicoError(error("edit", text, hint="the same `pico swap` once more starts from what is there now"))
-    setup = own_lab.setup_of(kept(root, far) or own_lab.proposed(root))
+    setup = own_lab.setup_of(kept(place) or own_lab.proposed(root))
     before = own_lab.proposed(root).as_bytes()
     written = {path: data for path, data in change.tree.as_bytes().items() if before.get(path) != data}
     thread = LoopThread()
-    edge = opened(setup, root, backend, setup.lab.sim.fidelity, kept(root, far), far)
+    edge = opened(setup, place, setup.lab.sim.fidelity, kept(place))
     try:
         write_all({root / path: data for path, data in written.items()})
         thread.wait(edge.adopt(change.own, "pico swap"))

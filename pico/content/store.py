@@ -18,9 +18,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from pico.attachment import lab_place, own_folder
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.disk import removed, sweep, unwritable
+from pico.places.lab import lab_place, own_folder
 
 CHUNK = 1 << 20
 """Bytes that are read or written at once."""

@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.backends.device import Began, Device
@@ -30,6 +29,7 @@ from pico.model.vocabulary import measured_in
 from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, believed, loop, started
 from pico.optimize.problem import Aim, Nominal, Problem, Variable, nominal_from_json
 from pico.optimize.registry import made
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.optimize.problem import Algorithm
@@ -58,9 +58,14 @@ class Aligning:
     measurement as progress."""
 
     def __init__(
-        self, setup: Setup, root: Path, device: Device, stopping: Callable[[], Stopping], tell: Callable[[Event], None]
+        self,
+        setup: Setup,
+        place: BenchPlace,
+        device: Device,
+        stopping: Callable[[], Stopping],
+        tell: Callable[[Event], None],
     ) -> None:
-        self._setup, self._root, self._device = setup, root, device
+        self._setup, self._place, self._device = setup, place, device
         self._stopping, self._tell = stopping, tell
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
@@ -137,7 +142,7 @@ class Aligning:
     def _taken_up(self, run: _Run) -> Problem:
         """Return the problem of a run, from the best point of the one that it takes up."""
         again = run.operation.arguments.get("again")
-        best = Points(self._root, str(again)).best(run.problem, run.limits) if again else None
+        best = Points(self._place, str(again)).best(run.problem, run.limits) if again else None
         return started(run.problem, best or {})
 
     async def _walk(self, run: _Run) -> Outcome:
@@ -147,7 +152,7 @@ class Aligning:
         def making(name: str) -> Callable[[Problem], Algorithm]:
             return lambda problem: made(name, problem, given)
 
-        points, problem = Points(self._root, run.key), self._taken_up(run)
+        points, problem = Points(self._place, run.key), self._taken_up(run)
         steps = loop(
             problem, making(run.algorithm), run.limits, acquire=acquiring(problem, run.algorithm),
             stopping=lambda: bool(self._stopping()),
@@ -207,7 +212,7 @@ class Aligning:
         from pico.content.store import store_of
 
         rows = [[t.time, *(t.result.get(name, math.nan) for name in columns[1:])] for t in tried]
-        return keep_array(store_of(self._root), np.array(rows, dtype=np.float64))
+        return keep_array(store_of(self._place.root), np.array(rows, dtype=np.float64))
 
 
 class _Run:

@@ -11,10 +11,12 @@ import hashlib
 import json
 from pathlib import Path
 
-from pico.attachment import bench_folder, lab_place
 from pico.disk import write_whole
 from pico.model.arming import FORMAT, Arming
 from pico.model.record import as_json, record
+from pico.places.bench import BenchPlace
+from pico.places.lab import lab_place
+from pico.places.old_records import seal_of_arming
 
 FOLDER = "armed"
 
@@ -28,38 +30,38 @@ class Kept:
     broken: str = ""
 
 
-def kept(root: Path) -> tuple[Kept, ...]:
-    """Return what the bench of the lab in `root` keeps, by laser. Never raises for what lies there."""
-    folder = bench_folder(root) / FOLDER
+def kept(place: BenchPlace) -> tuple[Kept, ...]:
+    """Return what the bench at `place` keeps, by laser. Never raises for what lies there."""
+    folder = place.folder / FOLDER
     try:
         paths = sorted(folder.glob("*.json"))
     except OSError:
         return ()
-    return tuple(_read(root, path) for path in paths)
+    return tuple(_read(place, path) for path in paths)
 
 
-def keep(root: Path, arming: Arming) -> None:
+def keep(place: BenchPlace, arming: Arming) -> None:
     """Let the bench keep an arming, in the place of an earlier one of its laser; raises PicoError."""
     data = (json.dumps(as_json(arming), indent=1) + "\n").encode()
-    if seal := _seal(root, arming.laser):
+    if seal := _seal(place, arming.laser):
         write_whole(seal, (_digest(data) + "\n").encode(), folders=True)
-    write_whole(bench_folder(root) / FOLDER / f"{arming.laser}.json", data, folders=True)
+    write_whole(place.folder / FOLDER / f"{arming.laser}.json", data, folders=True)
 
 
-def forget(root: Path, laser: str) -> None:
+def forget(place: BenchPlace, laser: str) -> None:
     """Let the bench keep nothing of a laser any more."""
-    (bench_folder(root) / FOLDER / f"{laser}.json").unlink(missing_ok=True)
-    if seal := _seal(root, laser):
+    (place.folder / FOLDER / f"{laser}.json").unlink(missing_ok=True)
+    if seal := _seal(place, laser):
         seal.unlink(missing_ok=True)
 
 
-def _read(root: Path, path: Path) -> Kept:
+def _read(place: BenchPlace, path: Path) -> Kept:
     laser = path.stem
     try:
         if path.is_symlink() or path.parent.is_symlink():
             return Kept(laser=laser, broken="it is a link")
         data = path.read_bytes()
-        seal = _seal(root, laser)
+        seal = _seal(place, laser)
         if seal is not None and seal.read_text(encoding="ascii").strip() != _digest(data):
             return Kept(laser=laser, broken="it is not what the bench wrote there")
         arming = _arming(json.loads(data))
@@ -81,8 +83,7 @@ def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _seal(root: Path, laser: str) -> Path | None:
+def _seal(place: BenchPlace, laser: str) -> Path | None:
     """Return the file in Git's folder, which all worktrees share, that knows what the bench wrote; None outside Git."""
-    place = lab_place(root)
-    name = _digest(f"{place.inside}/{laser}".encode())[:32] if place else ""
-    return place.common / "pico" / FOLDER / name if place else None
+    lab = lab_place(place.root)
+    return seal_of_arming(lab, place.name, laser) if lab else None

@@ -9,13 +9,13 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.attachment import bench_folder
 from pico.backends.device import Began
 from pico.disk import write_whole
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
 from pico.model.trace.dose import Dose
+from pico.places.bench import BenchPlace
 from pico.policy import dose
 
 if TYPE_CHECKING:
@@ -52,21 +52,21 @@ class Ledger:
         )  # fmt: skip
 
 
-def read(root: Path) -> Ledger:
-    """Return what the bench of the lab in `root` has counted; nothing where that can't be read."""
+def read(place: BenchPlace) -> Ledger:
+    """Return what the bench at `place` has counted; nothing where that can't be read."""
     try:
-        found = json.loads(_file(root).read_text(encoding="utf-8"))
+        found = json.loads(_file(place).read_text(encoding="utf-8"))
         at, spent, power = float(found["at"]), found["spent"], found["power"]
         return Ledger(at, {str(k): float(v) for k, v in spent.items()}, {str(k): float(v) for k, v in power.items()})
     except (OSError, ValueError, KeyError, TypeError, AttributeError):
         return Ledger()
 
 
-def counted(setup: Setup, root: Path, seen: Observation) -> Ledger:
+def counted(setup: Setup, place: BenchPlace, seen: Observation) -> Ledger:
     """Count until now, write that down, and return it; raises PicoError."""
-    ledger = read(root).until(setup, seen)
+    ledger = read(place).until(setup, seen)
     text = json.dumps({"schema": SCHEMA, "at": ledger.at, "spent": ledger.spent, "power": ledger.power}, indent=1)
-    write_whole(_file(root), f"{text}\n".encode(), folders=True)
+    write_whole(_file(place), f"{text}\n".encode(), folders=True)
     return ledger
 
 
@@ -74,21 +74,23 @@ class Dosing:
     """A device that counts the light on samples, and does nothing that would give one more than its budget. What they
     had in an operation stands in its result (`dose`, [mJ] by sample)."""
 
-    def __init__(self, setup: Setup, root: Path, inner: Executing, look: Callable[[], Awaitable[Observation]]) -> None:
-        self._setup, self._root, self._inner, self._look = setup, root, inner, look
+    def __init__(
+        self, setup: Setup, place: BenchPlace, inner: Executing, look: Callable[[], Awaitable[Observation]]
+    ) -> None:
+        self._setup, self._place, self._inner, self._look = setup, place, inner, look
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that gives a sample too much fails, and nothing is done."""
         seen = await self._look()
-        before = counted(self._setup, self._root, seen)
+        before = counted(self._setup, self._place, seen)
         alone: Any = replace(operation, start=0.0)
         if wrong := dose.refused(self._setup, seen, before.doses(self._setup), [alone]):
             return OperationResult(key=key, outcome="failed", error=wrong[0], ended=seen.time)
         result = await self._inner.execute(operation, key, began)
-        after = counted(self._setup, self._root, await self._look())
+        after = counted(self._setup, self._place, await self._look())
         had = {n: mj - before.spent.get(n, 0.0) for n, mj in after.spent.items() if mj > before.spent.get(n, 0.0)}
         return replace(result, data={**result.data, "dose": had}) if had else result
 
 
-def _file(root: Path) -> Path:
-    return bench_folder(root) / "dose.json"
+def _file(place: BenchPlace) -> Path:
+    return place.folder / "dose.json"

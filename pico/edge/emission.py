@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.device import Began, Capabilities, Commissioned, Device
@@ -20,6 +19,7 @@ from pico.model.plan import UNARMED, Base, LabRef, Plan, Target
 from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
 from pico.optics.audit.limits import above_class_2
+from pico.places.bench import BenchPlace
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import above, lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming, commissioning
@@ -65,48 +65,50 @@ def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[D
     return ()
 
 
-async def uncommissioned(setup: Setup, root: Path, able: Capabilities, device: Device, now: str) -> tuple[str, ...]:
+async def uncommissioned(
+    setup: Setup, place: BenchPlace, able: Capabilities, device: Device, now: str
+) -> tuple[str, ...]:  # fmt: skip
     """Return in words why lasers above class 2 stay shut on a bench that a person must have commissioned; empty where
     one has, or nothing of the sort is asked for. Raises PicoError for instruments that do not answer."""
     if not isinstance(device, Commissioned) or arming.waived(setup, able.evidence):
         return ()
     basis = await device.basis()
     try:
-        report = read(root, able.name)
+        report = read(place.root, able.name)
     except PicoError as exc:
         return (exc.diagnostics[0].summary,)
     return commissioning.why_not(report, able.name, basis, now)
 
 
-async def require_commissioned(setup: Setup, root: Path, device: Device, now: str, given: Arming) -> None:
+async def require_commissioned(setup: Setup, place: BenchPlace, device: Device, now: str, given: Arming) -> None:
     """Raise PicoError (exit code DENIED) where an arming above class 2 needs a bench that is commissioned."""
     able = await device.describe()
-    if above_class_2(given.laser_class) and (why := await uncommissioned(setup, root, able, device, now)):
+    if above_class_2(given.laser_class) and (why := await uncommissioned(setup, place, able, device, now)):
         raise PicoError(commissioning.refusal(able.name, given.laser, why), ExitCode.DENIED)
 
 
 async def with_licences(
-    setup: Setup, root: Path, able: Capabilities, device: Device, now: str, seen: Observation
+    setup: Setup, place: BenchPlace, able: Capabilities, device: Device, now: str, seen: Observation
 ) -> Observation:  # fmt: skip
     """Return the observation with what lets lasers emit now."""
-    known = [one.arming for one in armings.kept(root) if one.arming is not None]
+    known = [one.arming for one in armings.kept(place) if one.arming is not None]
     for one in known:
         if not one.seen_over and arming.at_its_end(one, now):
             with suppress(PicoError, OSError):  # a clock that is set back must not bring it back
-                armings.keep(root, replace(one, seen_over=True))
+                armings.keep(place, replace(one, seen_over=True))
     found = arming.licences(setup, able.evidence, known, able.name, now)
     if any(above_class_2(one.laser_class) and one.by for one in found.values()) and (
-        why := await uncommissioned(setup, root, able, device, now)
+        why := await uncommissioned(setup, place, able, device, now)
     ):
         said = f"the bench is not commissioned: {why[0]}"
         found = {name: replace(one, laser_class="2", withheld=said) for name, one in found.items()}
     return replace(seen, licences=found)
 
 
-def over(setup: Setup, root: Path, now: str) -> dict[str, str]:
+def over(setup: Setup, place: BenchPlace, now: str) -> dict[str, str]:
     """Return the lasers whose arming is over or broken, each with why."""
     found = {}
-    for one in armings.kept(root):
+    for one in armings.kept(place):
         why = arming.over(setup, one.arming, now) if one.arming else f"its arming can't be read ({one.broken})"
         if why:
             found[one.laser] = why

@@ -1,4 +1,4 @@
-"""One mover at a time: a kernel lock on the lab's folder, which the kernel frees when its holder dies.
+"""One mover at a time: a kernel lock in the folder of a bench, which the kernel frees when its holder dies.
 
 Who holds it stands beside the lock, for the message that the second one reads. Tokens count up, for every command to
 the bench to carry, so that one that comes late is known for what it is.
@@ -17,11 +17,13 @@ from contextvars import ContextVar
 from datetime import UTC, datetime
 from pathlib import Path
 
-from pico import attachment
-from pico.attachment import bench_folder, hold, let_go, require_attached
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, write_whole, writing
 from pico.edge.protocol import ENROLMENT, Granting, Holder, Lease
+from pico.places import attachment
+from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace, hold, let_go
+from pico.places.lab import make_own_folder
 
 
 def utc_now() -> str:
@@ -38,13 +40,13 @@ RETRY = 0.05
 
 
 class BenchLock:
-    """The lock of the lab in folder `root`: `.pico/lock`, with the holder in `.pico/holder.json`.
+    """The lock of the bench at `place`: `lock` in its folder, with the holder in `holder.json`.
 
     They are those of the worktree that is attached to the bench; only there it can be taken.
     """
 
-    def __init__(self, root: Path, clock: Callable[[], str] = utc_now) -> None:
-        self._root = root
+    def __init__(self, place: BenchPlace, clock: Callable[[], str] = utc_now) -> None:
+        self._place = place
         self._clock = clock
         self._file: int | None = None
         self.server = False
@@ -55,17 +57,17 @@ class BenchLock:
     def acquire(self, holder: str) -> Lease:
         """Take the lock at once or raise PicoError: exit code LOCKED, naming who has it and what for, or which worktree
         the bench is attached to. One that is enrolled with a coordinator only that one grants."""
-        require_attached(self._root)
+        require_attached(self._place)
         token = self._granted()
         file = self._open()
         if not self._locked(file):
             os.close(file)
             raise PicoError(self._taken(), ExitCode.LOCKED)
         try:
-            require_attached(self._root)  # it may have been taken to another worktree meanwhile
+            require_attached(self._place)  # it may have been taken to another worktree meanwhile
             with self._writing():
                 sweep(self._folder)
-            hold(self._root)
+            hold(self._place)
         except PicoError:
             os.close(file)
             raise
@@ -96,7 +98,7 @@ class BenchLock:
 
     @property
     def _folder(self) -> Path:
-        return bench_folder(self._root)
+        return self._place.folder
 
     def _locked(self, file: int) -> bool:
         """Try to lock; who only asks for the holder has the lock for an instant, too, and does not count."""
@@ -131,7 +133,7 @@ class BenchLock:
     def release(self) -> None:
         """Let go of the lock; nothing happens where it is not held."""
         if self._file is not None:
-            let_go(self._root)
+            let_go(self._place)
             with suppress(OSError):  # on a disk that became read-only it stays; it names nobody who lives
                 (self._folder / "holder.json").unlink(missing_ok=True)
             os.close(self._file)
@@ -148,6 +150,7 @@ class BenchLock:
 
     def _open(self) -> int:
         with self._writing():
+            make_own_folder(self._place.attached.root)
             self._folder.mkdir(parents=True, exist_ok=True)
             return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
 
@@ -222,14 +225,14 @@ async def wait_until_free(holder: Callable[[], Holder | None], seconds: float) -
         await asyncio.sleep(RETRY)
 
 
-def attach(root: Path) -> Path | None:
-    """Attach the worktree of the lab in `root` to its bench, and return the folder that had it, None for none.
+def attach(place: BenchPlace) -> Path | None:
+    """Attach the worktree of a lab to its bench, and return the lab's folder that had it, None for none.
 
     Raises PicoError, exit code LOCKED, where somebody moves the bench.
     """
-    had = bench_folder(root).parent
-    with BenchLock(had).held("pico git attach") if had != root else nullcontext():
-        return attachment.attach(root)
+    elsewhere = place.folder != place.own
+    with BenchLock(place.attached).held("pico git attach") if elsewhere else nullcontext():
+        return attachment.attach(place)
 
 
 def enrolled(folder: Path) -> Diagnostic:

@@ -8,10 +8,8 @@ from collections.abc import AsyncIterator, Callable
 from contextlib import suppress
 from dataclasses import replace
 from itertools import count
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder, require_attached
 from pico.backends.device import Capabilities, Device, Shown
 from pico.backends.devices import opener
 from pico.backends.world import World
@@ -27,6 +25,8 @@ from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
 from pico.model.setup import Setup
 from pico.model.trace.event import Event
+from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
@@ -64,7 +64,7 @@ HALTED = error("halted", "the bench is halted: nothing more is started")
 
 
 class LocalEdge:
-    """The bench of the lab in folder `root`, with its device. It dies with this process, as a killed run does.
+    """The bench at `place`, with its device. It dies with this process, as a killed run does.
 
     `opening` opens the device of a setup; `lab` is what `setup` was read from, which the bench keeps as its own from
     the first time that it is taken (None: on trial, nothing is kept). `clock` gives the wall time as ISO 8601, UTC.
@@ -72,14 +72,14 @@ class LocalEdge:
     """
 
     def __init__(
-        self, setup: Setup, root: Path, opening: Callable[[Setup], Device], lab: OwnLab | None = None,
+        self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], lab: OwnLab | None = None,
         clock: Callable[[], str] = utc_now,
     ) -> None:  # fmt: skip
-        self.setup, self.root, self.device = setup, root, opening(setup)
-        self._opening, self._kept = opening, KeptLab(root, lab, clock)
+        self.setup, self.place, self.device = setup, place, opening(setup)
+        self._opening, self._kept = opening, KeptLab(place, lab, clock)
         self._usual: tuple[Setup, Device] | None = None
         self.settled: tuple[SettledOperation, ...] = ()
-        self._lock, self.now = BenchLock(root, clock), clock
+        self._lock, self.now = BenchLock(place, clock), clock
         self._lasers: Shutting | None = None
         self._releasing = asyncio.Lock()
         self._minded = frozenset[tuple[str, str]]()
@@ -96,7 +96,7 @@ class LocalEdge:
         self._open: OpenRun | None = None
         self._obeying: asyncio.Task[None] | None = None
         self._alone: Alone | None = None
-        self._remembers = Remembering(root, clock)
+        self._remembers = Remembering(place, clock)
         self._listeners: list[Callable[[Event], None]] = []
         self._seen: Observation | None = None
 
@@ -218,7 +218,7 @@ class LocalEdge:
 
         if self._able is None or self._able[0] is not self.device:
             self._able = self.device, await self.device.describe()
-        return await with_licences(self.setup, self.root, self._able[1], self.device, self.now(), seen)
+        return await with_licences(self.setup, self.place, self._able[1], self.device, self.now(), seen)
 
     # who may let it emit
 
@@ -226,7 +226,7 @@ class LocalEdge:
         """Return what the bench keeps of armings, broken ones, too."""
         from pico.edge.armings import kept
 
-        return kept(self.root)
+        return kept(self.place)
 
     async def arm(self, arming: Arming) -> Arming:
         """Keep an arming, see `pico.edge.protocol.Edge`."""
@@ -234,12 +234,12 @@ class LocalEdge:
         from pico.edge.emission import require_commissioned
         from pico.policy.arming import refusal
 
-        require_attached(self.root)
+        require_attached(self.place)
         given = replace(arming, backend=(await self.device.describe()).name)
         if wrong := refusal(self.setup, given, self.now()):
             raise PicoError(wrong, ExitCode.DENIED)
-        await require_commissioned(self.setup, self.root, self.device, self.now(), given)
-        keep(self.root, given)
+        await require_commissioned(self.setup, self.place, self.device, self.now(), given)
+        keep(self.place, given)
         return given
 
     async def disarm(self, laser: str, by: str) -> bool:
@@ -247,9 +247,9 @@ class LocalEdge:
         from pico.edge.armings import keep
         from pico.policy.arming import ended
 
-        require_attached(self.root)
+        require_attached(self.place)
         now, known = self.now(), {one.laser: one.arming for one in await self.armings()}
-        keep(self.root, ended(self.setup, known.get(laser), laser, by, (await self.device.describe()).name, now))
+        keep(self.place, ended(self.setup, known.get(laser), laser, by, (await self.device.describe()).name, now))
         for _ in range(SHUT_WITHIN):
             if self._lease is None and await self.holder() is None:
                 with suppress(PicoError):  # who takes the bench next shuts it, or has it and does
@@ -272,7 +272,7 @@ class LocalEdge:
 
     async def hold(self, terms: Terms) -> Left | None:
         """Hold an unattended run to its terms; see `pico.edge.protocol.Edge`."""
-        require_attached(self.root)
+        require_attached(self.place)
         return await self.alone.hold(terms)
 
     async def goes_on(self, recipe: str) -> None:
@@ -285,7 +285,7 @@ class LocalEdge:
 
     async def unattended(self) -> Terms | None:
         """Return the terms of an unattended run; see `pico.edge.protocol.Edge`."""
-        known = self._alone is not None or (bench_folder(self.root) / UNATTENDED).exists()
+        known = self._alone is not None or (self.place.folder / UNATTENDED).exists()
         return self.alone.known() if known else None
 
     def moving(self) -> bool:
@@ -329,7 +329,7 @@ class LocalEdge:
         """Return whether an arming has ended since this was asked last, while nobody has the bench."""
         from pico.edge import emission
 
-        over = frozenset(emission.over(self.setup, self.root, self.now()).items())
+        over = frozenset(emission.over(self.setup, self.place, self.now()).items())
         if self._lease is not None or over <= self._minded:
             return False
         self._minded = over
@@ -368,7 +368,7 @@ class LocalEdge:
                     raise
             prepare()
             await self.device.take(lease.token, self._heard, lambda: self._require(under_way=True))
-            aligning = Aligning(self.setup, self.root, self.device, self._stops, self._heard)
+            aligning = Aligning(self.setup, self.place, self.device, self._stops, self._heard)
             surveying = Surveying(self.setup, aligning, self.device, self._stops, self._heard)
             doing = Teleoperating(self.setup, surveying, self.device, self._stops, self._heard)
             self._steering = doing
@@ -394,7 +394,7 @@ class LocalEdge:
             return inner
         from pico.edge.dose import Dosing
 
-        return Dosing(self.setup, self.root, inner, self.observe)
+        return Dosing(self.setup, self.place, inner, self.observe)
 
     async def doses(self) -> tuple[Dose, ...]:
         """Return what the samples of the bench had; see `pico.edge.protocol.Edge`."""
@@ -402,7 +402,7 @@ class LocalEdge:
             return ()
         from pico.edge.dose import read
 
-        return read(self.root).until(self.setup, await self.observe()).doses(self.setup)
+        return read(self.place).until(self.setup, await self.observe()).doses(self.setup)
 
     async def _require_dose(self, plan: Plan, seen: Observation) -> None:
         """Raise PicoError (exit code DENIED) where a plan would give a sample more light than it may have."""
@@ -445,7 +445,7 @@ class LocalEdge:
             if turn % LOOKS == LOOKS - 1 and (idle or self._open is not None or self._running is not None):
                 with suppress(PicoError):  # a journal that is gone is told by what moves
                     await self._shut_over()
-            asked = asked_to_stop(self.root, lease.token)
+            asked = asked_to_stop(self.place, lease.token)
             if asked is not None and asked != last:
                 last = asked
                 await (self.stop() if asked == "now" else self.halt())
@@ -802,10 +802,10 @@ class LocalEdge:
 
 
 def embedded(
-    setup: Setup, root: Path, backend: str, fidelity: str, lab: OwnLab | None = None,
+    setup: Setup, place: BenchPlace, fidelity: str, lab: OwnLab | None = None,
     clock: Callable[[], str] = utc_now,
 ) -> LocalEdge:  # fmt: skip
-    """Return the edge in this process of the bench of the lab in `root`, see `LocalEdge`; raises PicoError for what
+    """Return the edge in this process of the bench at `place`, see `LocalEdge`; raises PicoError for what
     there is not."""
-    opening = opener(backend)
-    return LocalEdge(setup, root, lambda setup: opening(setup, root, fidelity, clock), lab, clock)
+    opening = opener(place.name)
+    return LocalEdge(setup, place, lambda setup: opening(setup, place, fidelity, clock), lab, clock)

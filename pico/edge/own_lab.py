@@ -12,11 +12,14 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import bench_folder, lab_place
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.edge.protocol import OwnLab
 from pico.manifest.files import bench_files, read_folder, shown_path
+from pico.places.bench import BenchPlace
+from pico.places.lab import lab_place
+from pico.places.record import SHARED
+from pico.places.seals import sealed_labs, write_seals
 
 if TYPE_CHECKING:
     from pico.model.setup import Setup
@@ -25,18 +28,16 @@ FILE = "lab.json"
 SCHEMA = "pico.bench-lab/v1"
 NAMED = "the bench's own "
 """What stands before the names of its files in diagnostics."""
-SEALS = "labs.json"
-"""In `pico` of the folder that all worktrees share: the digests of the Labs that benches keep, by the lab's folder."""
 CODE = "bench-lab"
 _HINT = "`pico bench update` shows what the working tree describes, and lets the bench adopt that"
 
 
-def read(root: Path) -> OwnLab | None:
-    """Return the Lab that the bench of the lab in `root` keeps, None where it keeps none yet; raises PicoError."""
-    path = bench_folder(root) / FILE
+def read(place: BenchPlace) -> OwnLab | None:
+    """Return the Lab that the bench at `place` keeps, None where it keeps none yet; raises PicoError."""
+    path = place.folder / FILE
     try:
         data = path.read_bytes() if path.exists() else None
-        _require_sealed(root, path, data)
+        _require_sealed(place, path, data)
         if data is None:
             return None
         document = json.loads(data)
@@ -52,24 +53,24 @@ def read(root: Path) -> OwnLab | None:
         raise PicoError(error(CODE, f"{path} is no Lab of a bench", hint=_HINT)) from exc
 
 
-def write(root: Path, lab: OwnLab) -> None:
-    """Let the bench of the lab in `root` keep a Lab, whole or not at all; raises PicoError."""
+def write(place: BenchPlace, lab: OwnLab) -> None:
+    """Let the bench at `place` keep a Lab, whole or not at all; raises PicoError."""
     document = {"schema": SCHEMA, "by": lab.by, "at": lab.at, "files": dict(lab.files)}
     data = (json.dumps(document, indent=1) + "\n").encode()
-    before = _seals(root)
-    _seal(root, [*before, _digest(data)])  # either counts until the file is there
-    write_whole(bench_folder(root) / FILE, data)
-    _seal(root, [_digest(data)])
+    before = _seals(place)
+    _seal(place, [*before, _digest(data)])  # either counts until the file is there
+    write_whole(place.folder / FILE, data)
+    _seal(place, [_digest(data)])
 
 
 def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _require_sealed(root: Path, path: Path, data: bytes | None) -> None:
+def _require_sealed(place: BenchPlace, path: Path, data: bytes | None) -> None:
     """Raise PicoError where a Lab is not the one that the bench wrote, or is gone while its journal is there: a whole
     bench may be thrown away. Outside Git nothing tells."""
-    sealed = _seals(root)
+    sealed = _seals(place)
     if not sealed or (data is not None and _digest(data) in sealed):
         return
     if data is None and not path.with_name("journal.sqlite").exists():
@@ -78,31 +79,22 @@ def _require_sealed(root: Path, path: Path, data: bytes | None) -> None:
     raise PicoError(error(CODE, f"{path} {how}, so nobody knows what this bench is", hint=_HINT))
 
 
-def is_sealed(root: Path) -> bool:
-    """Return whether Git's folder knows what the bench of the lab in `root` keeps; outside Git there is nothing to."""
-    return bool(_seals(root)) or lab_place(root) is None
+def is_sealed(place: BenchPlace) -> bool:
+    """Return whether Git's folder knows what the bench at `place` keeps; outside Git there is nothing to."""
+    return bool(_seals(place)) or lab_place(place.root) is None
 
 
-def _seals(root: Path) -> list[str]:
-    place = lab_place(root)
-    try:
-        known = json.loads((place.common / "pico" / SEALS).read_bytes()) if place else {}
-        return [str(digest) for digest in known.get(place.inside, ())] if place else []
-    except (OSError, ValueError, AttributeError, TypeError):
-        return []
+def _seals(place: BenchPlace) -> list[str]:
+    lab = lab_place(place.root)
+    found = sealed_labs(lab).get(lab.inside, {}) if lab else {}
+    return found.get(place.name, found.get(SHARED, []))
 
 
-def _seal(root: Path, digests: Sequence[str]) -> None:
-    place = lab_place(root)
-    if place is None:
-        return
-    path = place.common / "pico" / SEALS
-    try:
-        known = dict(json.loads(path.read_bytes()))
-    except (OSError, ValueError, TypeError):
-        known = {}
-    data = json.dumps({**known, place.inside: list(digests)}, indent=1, sort_keys=True) + "\n"
-    write_whole(path, data.encode(), folders=True)
+def _seal(place: BenchPlace, digests: Sequence[str]) -> None:
+    lab = lab_place(place.root)
+    if lab is not None:
+        known = sealed_labs(lab)
+        write_seals(lab, {**known, lab.inside: {**known.get(lab.inside, {}), place.name: list(digests)}})
 
 
 def proposed(root: Path) -> OwnLab:

@@ -6,19 +6,18 @@ import json
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
-from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.optimize.loop import Limits, believed
 from pico.optimize.problem import Point, Problem
+from pico.places.bench import BenchPlace
 
 
 class Points:
-    """The points of the optimization under `key` on the bench in `root`. A line is there when `add` returns, whatever
+    """The points of the optimization under `key` on the bench at `place`. A line is there when `add` returns, whatever
     becomes of the process; a disk that takes none costs only the way back to the best of them."""
 
-    def __init__(self, root: Path, key: str) -> None:
-        self._path = bench_folder(root) / "points" / f"{key.replace('/', '-')}.jsonl"
+    def __init__(self, place: BenchPlace, key: str) -> None:
+        self._path = place.folder / "points" / f"{key.replace('/', '-')}.jsonl"
 
     def add(self, result: Mapping[str, float]) -> None:
         """Keep a point with what was measured there."""

@@ -8,8 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.attachment import bench_folder
 from pico.disk import write_whole
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.model.trace.run import RunOutcome
@@ -17,17 +17,17 @@ if TYPE_CHECKING:
 
 
 class Remembering:
-    """What the bench of the lab in `root` remembers of its runs, and which of them has begun and not ended."""
+    """What the bench at `place` remembers of its runs, and which of them has begun and not ended."""
 
-    def __init__(self, root: Path, clock: Callable[[], str]) -> None:
-        self._root, self._clock = root, clock
+    def __init__(self, place: BenchPlace, clock: Callable[[], str]) -> None:
+        self._place, self._clock = place, clock
         self._journal: Journal | None = None
         self._memories: dict[int, Journal] = {}
 
     @property
     def path(self) -> Path:
         """The file of the journal."""
-        return bench_folder(self._root) / "journal.sqlite"
+        return self._place.folder / "journal.sqlite"
 
     @property
     def journal(self) -> Journal:
@@ -51,7 +51,7 @@ class Remembering:
 
     @property
     def _mark(self) -> Path:
-        return bench_folder(self._root) / "run"
+        return self._place.folder / "run"
 
     def unended(self) -> str | None:
         """Return the run that has begun and not ended, None for none; its id stands beside the journal meanwhile."""

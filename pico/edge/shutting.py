@@ -4,7 +4,6 @@ unattended run left open."""
 from __future__ import annotations
 
 import asyncio
-from pathlib import Path
 from typing import Protocol
 
 from pico.backends.device import Capabilities
@@ -17,6 +16,7 @@ from pico.edge.unattended import Alone
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 from pico.runs.journal import Journal
 
 
@@ -24,7 +24,7 @@ class Emitting(Protocol):
     """What shutting needs of an edge that has its bench."""
 
     setup: Setup
-    root: Path
+    place: BenchPlace
 
     @property
     def journal(self) -> Journal: ...
@@ -65,7 +65,7 @@ class Shutting:
         edge = self._edge
         async with self._one_at_a_time:
             bare = emission.unlicensed(edge.setup, seen) if seen is not None else {}
-            for laser, why in (bare | emission.over(edge.setup, edge.root, edge.now())).items():
+            for laser, why in (bare | emission.over(edge.setup, edge.place, edge.now())).items():
                 if not await self._shut(laser, why):
                     return
             if seen is not None and edge.alone.due():
@@ -102,7 +102,7 @@ class Shutting:
             if not await self._done(operation):
                 return False
             self._told = (*self._told, emission.told(laser, why))
-        forget(edge.root, laser)
+        forget(edge.place, laser)
         return True
 
     async def _done(self, operation: Operation) -> bool:

@@ -5,23 +5,23 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.disk import write_whole
 from pico.edge.protocol import Asking
+from pico.places.bench import BenchPlace
 
 
-def ask_to_stop(root: Path, token: int, how: Asking) -> None:
-    """Ask the holder of the lease `token` of the lab in `root` to stop; raises PicoError where it can't be asked."""
-    path = _note(root)
+def ask_to_stop(place: BenchPlace, token: int, how: Asking) -> None:
+    """Ask the holder of the lease `token` of the bench at `place` to stop; raises PicoError where it can't be asked."""
+    path = _note(place)
     note = json.dumps({"token": token, "how": how}).encode()
     what = f"the request to stop cannot be written to {path}; press Ctrl-C in the terminal of the run"
     write_whole(path, note, what=what, code="stop", durable=False)
 
 
-def asked_to_stop(root: Path, token: int) -> Asking | None:
+def asked_to_stop(place: BenchPlace, token: int) -> Asking | None:
     """Return how the holder of the lease `token` was asked to stop, or None where it was not."""
     try:
-        note = json.loads(_note(root).read_text(encoding="utf-8"))
+        note = json.loads(_note(place).read_text(encoding="utf-8"))
         if note["token"] != token:
             return None
         return "now" if note["how"] == "now" else "safely"
@@ -29,5 +29,5 @@ def asked_to_stop(root: Path, token: int) -> Asking | None:
         return None
 
 
-def _note(root: Path) -> Path:
-    return bench_folder(root) / "stop.json"
+def _note(place: BenchPlace) -> Path:
+    return place.folder / "stop.json"

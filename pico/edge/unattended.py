@@ -18,7 +18,6 @@ from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
-from pico.attachment import bench_folder
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.disk import write_whole
 from pico.edge import emission
@@ -29,6 +28,7 @@ from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.unattended import FORMAT, LAMPS_OFF, PARKED, SHUT, Left, Terms
+from pico.places.bench import BenchPlace
 from pico.policy.arming import lasers
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ class Held(Protocol):
     """The edge that holds a run, see `pico.edge.local`."""
 
     setup: Setup
-    root: Path
+    place: BenchPlace
 
     async def describe(self) -> Capabilities: ...
     async def observe(self) -> Observation: ...
@@ -80,16 +80,16 @@ class Alone:
     async def hold(self, terms: Terms) -> Left | None:
         """Hold a run to its terms from now on; return how the edge left the bench when it ended that run before. Raises
         PicoError (exit code LOCKED) where one is held."""
-        before, root = read(self._edge.root), self._edge.root
-        if before is not None and before.recipe != terms.recipe and before.left is None and not alive(root):
+        before, place = read(self._edge.place), self._edge.place
+        if before is not None and before.recipe != terms.recipe and before.left is None and not alive(place):
             await self._edge.release(await self._edge.acquire("the end of an unattended run", GRACE))
-        self._lock = _locked(root)
+        self._lock = _locked(place)
         if self._lock is None:
             who = before.recipe if before else "another one"
             text = f"the unattended run {who} is under way"
             raise PicoError(error("locked", text, hint="`pico stop` ends it"), ExitCode.LOCKED)
         self.terms, self._heard = replace(terms, left=None), time.monotonic()
-        _write(root, self.terms)
+        _write(place, self.terms)
         self._watching = asyncio.create_task(self._watch())
         return before.left if before is not None and before.recipe == terms.recipe else None
 
@@ -110,7 +110,7 @@ class Alone:
                 return Left()
             left = self.terms.left or await self._bring("", moves)
             if moves and not left.why:
-                _file(self._edge.root).unlink(missing_ok=True)
+                _file(self._edge.place).unlink(missing_ok=True)
             self._drop()
             return left
 
@@ -166,7 +166,7 @@ class Alone:
             return self.terms
         before = self._due()
         if before is None:
-            return read(self._edge.root)
+            return read(self._edge.place)
         text = f"the bench is not left {', '.join(before.end) or 'as it stood'} yet"
         wrong = error("unattended", text, hint="`pico recover` does so, and so does whatever takes the bench next")
         return replace(before, left=Left(why=KILLED, wrong=(wrong,)))
@@ -189,7 +189,7 @@ class Alone:
         left, self._left_as = self._left_as, None
         self.terms = replace(terms, left=left)
         with suppress(PicoError):  # a full disk must not hide how the bench was left
-            _write(edge.root, self.terms)
+            _write(edge.place, self.terms)
         return left
 
     def due(self) -> bool:
@@ -221,8 +221,8 @@ class Alone:
             return self.terms
         if self.terms is not None:
             return None
-        before = read(self._edge.root)
-        return before if before is not None and before.left is None and not alive(self._edge.root) else None
+        before = read(self._edge.place)
+        return before if before is not None and before.left is None and not alive(self._edge.place) else None
 
     def tidied(self, done: tuple[Operation, ...]) -> None:
         """Hear what was done of that; of a run whose process has died it is written down."""
@@ -232,7 +232,7 @@ class Alone:
         elif (before := self._due()) is not None:
             reached = tuple(end for end in before.end if end != PARKED)
             left = Left(why=KILLED, reached=reached, was=was)
-            _write(self._edge.root, replace(before, left=left))
+            _write(self._edge.place, replace(before, left=left))
 
     async def _found(self, terms: Terms, seen: Observation) -> None:
         setup = self._edge.setup
@@ -300,11 +300,11 @@ def _dark(setup: Setup, seen: Observation, why: str) -> Iterator[Operation]:
 # what the bench keeps of it
 
 
-def read(root: Path) -> Terms | None:
+def read(place: BenchPlace) -> Terms | None:
     """Return the terms of the last unattended run that the bench knows; None where there was none, or its file is
     broken."""
     try:
-        document = json.loads(_file(root).read_text(encoding="utf-8"))
+        document = json.loads(_file(place).read_text(encoding="utf-8"))
         from pydantic import TypeAdapter
 
         found: Terms = TypeAdapter(Terms).validate_python(FORMAT.lifted(document))
@@ -313,10 +313,10 @@ def read(root: Path) -> Terms | None:
         return None
 
 
-def alive(root: Path) -> bool:
+def alive(place: BenchPlace) -> bool:
     """Return whether a process holds a run of this bench to its terms."""
     try:
-        file = os.open(bench_folder(root) / "unattended.lock", os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
+        file = os.open(place.folder / "unattended.lock", os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
     except OSError:
         return False
     try:
@@ -328,8 +328,8 @@ def alive(root: Path) -> bool:
         os.close(file)
 
 
-def _locked(root: Path) -> int | None:
-    folder = bench_folder(root)
+def _locked(place: BenchPlace) -> int | None:
+    folder = place.folder
     folder.mkdir(parents=True, exist_ok=True)
     file = os.open(folder / "unattended.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
     try:
@@ -340,9 +340,9 @@ def _locked(root: Path) -> int | None:
     return file
 
 
-def _write(root: Path, terms: Terms) -> None:
-    write_whole(_file(root), (json.dumps(as_json(terms), indent=1) + "\n").encode(), folders=True)
+def _write(place: BenchPlace, terms: Terms) -> None:
+    write_whole(_file(place), (json.dumps(as_json(terms), indent=1) + "\n").encode(), folders=True)
 
 
-def _file(root: Path) -> Path:
-    return bench_folder(root) / UNATTENDED
+def _file(place: BenchPlace) -> Path:
+    return place.folder / UNATTENDED

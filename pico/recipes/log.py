@@ -1,4 +1,5 @@
-"""What a run of a recipe has done, line by line in `.pico/recipes/ID.jsonl`: told again, it leads to the same place.
+"""What a run of a recipe has done, line by line in `recipes/ID.jsonl` of the bench's folder: told again, it leads to
+the same place.
 
 The first line says which recipe, by its digest, with which parameters. A step that acts has a line when it begins, one
 for each run that it begins on the bench, and one with what came of it. Every line is on the disk before what it tells
@@ -14,9 +15,9 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, error
 from pico.disk import unwritable
+from pico.edge.network.remotes import Place
 from pico.model.record import digest
 
 SCHEMA = "pico.recipe_run/v1"
@@ -70,9 +71,9 @@ class Log:
         return list(dict.fromkeys(run for step in self.steps.values() for run in step.runs))
 
     @classmethod
-    def begin(cls, root: Path, about: About) -> Log:
-        """Begin the log of a new run on the bench of the lab in `root`."""
-        log = cls(folder(root) / f"{about.id}.jsonl", about, {})
+    def begin(cls, place: Place, about: About) -> Log:
+        """Begin the log of a new run on a bench."""
+        log = cls(folder(place) / f"{about.id}.jsonl", about, {})
         data = {k: v for k, v in vars(about).items() if k != "ended"}
         log._write({"schema": SCHEMA, **data})
         return log
@@ -148,14 +149,14 @@ class Log:
             raise PicoError(replace(found, hint=hint)) from exc
 
 
-def folder(root: Path) -> Path:
+def folder(place: Place) -> Path:
     """Return where the logs of a bench are."""
-    return bench_folder(root) / "recipes"
+    return place.folder / "recipes"
 
 
-def logs(root: Path) -> list[Path]:
+def logs(place: Place) -> list[Path]:
     """Return the logs of a bench, the latest first."""
-    return sorted(folder(root).glob("*.jsonl"), reverse=True)
+    return sorted(folder(place).glob("*.jsonl"), reverse=True)
 
 
 def _take(steps: dict[str, Logged], line: Mapping[str, Any]) -> None:

@@ -25,7 +25,7 @@ def pytest_configure(config: pytest.Config) -> None:
 @pytest.fixture
 def bench(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Bench]:
     """A bench of its own: a clone of the lab with its history, in the simulator."""
-    from pico.edge.network.remotes import LOCAL
+    from pico.backends.devices import SIMULATOR
     from pico.manifest.load import find_lab
     from pico.recipes.rehearsing import clone
     from pico.scripting.bench import Bench
@@ -34,7 +34,7 @@ def bench(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Bench]:
     asked = request.config.rootpath / str(marker.args[0]) if marker and marker.args else request.path.parent
     lab = clone(find_lab(asked), tmp_path / "lab")
     fidelity = marker.kwargs.get("fidelity", "kinematic") if marker else "kinematic"
-    with Bench.open(lab, fidelity=fidelity, bench=LOCAL) as opened:
+    with Bench.open(lab, fidelity=fidelity, bench=SIMULATOR) as opened:
         yield opened
 
 

@@ -122,7 +122,7 @@ class Recipes:
         from pico.recipes.guarding import guard_of
 
         guard_of(self.bench, recipe, arguments).require_start()
-        if served(self.bench.root, self.bench.far):
+        if served(self.bench.place):
             return ()
         text = "only this process holds it to what it states: killed, it leaves the bench as it is to the next one"
         hint = "a bench that is served outlives it: `pico edge`, in a terminal of its own"
@@ -156,7 +156,7 @@ class Recipes:
         at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
         path = str(Path(recipe.path).resolve())
         texts = {p: t.decode("utf-8", "replace") for p, t in self.texts.items()}
-        return Log.begin(self.bench.side, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
+        return Log.begin(self.bench.place, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
 
     def cut_short(self) -> tuple[About, ...]:
         """Return the runs of recipes that have no end, the latest first; a log that can't be read is left out."""
@@ -181,7 +181,7 @@ class Recipes:
         """Yield the logs of this bench, the latest first; one that can't be read is kept in `broken`, and one that a
         kill left before its first line is of a run that did nothing."""
         self.broken = []
-        for path in logs(self.bench.side)[:most]:
+        for path in logs(self.bench.place)[:most]:
             try:
                 yield Log.read(path)
             except PicoError as exc:
@@ -209,7 +209,7 @@ class Recipes:
         if not brought:
             return None
         name = names[brought[0]]
-        text = f"{name} was run on another bench: what it returned is in the log there (`.pico/recipes`), in no commit"
+        text = f"{name} was run on another bench: what it returned is in the log there, in no commit"
         hint = f"there `pico runs plot --recipe {name}`; its runs are here: `pico runs show {brought[0]}`"
         return error("run", text, hint=hint)
 

@@ -12,8 +12,8 @@ from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+from pico.backends.devices import SIMULATOR
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.edge.network.remotes import LOCAL
 from pico.history.git.command import run as git
 from pico.history.repository.repository import Repository
 
@@ -78,7 +78,7 @@ def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
     with tempfile.TemporaryDirectory(prefix="pico-test-") as folder:
         try:
             lab = clone(Path(root), Path(folder) / "lab")
-            with Bench.open(lab, fidelity=fidelity, bench=LOCAL) as bench:
+            with Bench.open(lab, fidelity=fidelity, bench=SIMULATOR) as bench:
                 recipes = Recipes(bench)
                 recipe = recipes.read(name)
                 out = recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))

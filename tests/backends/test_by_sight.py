@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from benches import shel
 from oracles.poison import Poisoned, poisoned
 from test_sight import seeing
@@ -45,7 +46,7 @@ class Bench:
 
     def __init__(self, root: Path, fidelity: str = "physics", setup: Setup = SETUP) -> None:
         self.setup = setup
-        self.device = SimDevice(setup, root, fidelity, clock=lambda: "2026-11-01T12:00:00Z")
+        self.device = SimDevice(setup, bench_at(root), fidelity, clock=lambda: "2026-11-01T12:00:00Z")
         self.seen = asyncio.run(self.device.observe())
         asyncio.run(self.device.take(1, nothing))
         assert self.device._session is not None
@@ -125,11 +126,11 @@ def test_when_no_picture_comes_any_more_the_part_is_left_alone(tmp_path: Path, m
 @pytest.mark.parametrize("fidelity", ["physics", "kinematic"])
 def test_where_a_part_was_put_down_is_known_to_who_comes_after_a_kill(tmp_path: Path, fidelity: str) -> None:
     """Nobody had looked at it yet, and the arm that stands over it may hide it."""
-    bench, known, left = Bench(tmp_path, fidelity), [], recall(tmp_path)[PART]
+    bench, known, left = Bench(tmp_path, fidelity), [], recall(bench_at(tmp_path))[PART]
     confirm = bench.session._known.confirm
 
     def looks(component: str, near: Pose) -> ObservedComponent:
-        known.append(recall(tmp_path)[component])
+        known.append(recall(bench_at(tmp_path))[component])
         return confirm(component, near)
 
     bench.session._known.confirm = looks  # type: ignore[method-assign]
@@ -208,10 +209,10 @@ def test_a_plan_and_a_run_agree_on_what_a_hand_that_was_stopped_while_it_closed_
     assert not isinstance(path, Blocked)
     grip = next(segment for segment in path.segments if segment.name == "grip")
     robots = {"arm1": replace(world.robots["arm1"], joints=grip.joints[-1])}
-    save_world(tmp_path, replace(world, robots=robots, openings={"arm1": grip.opening - 0.2}))
-    remember_hands(tmp_path, {"arm1": Taken(component=PART, pose=Pose(0, 0))})
+    save_world(bench_at(tmp_path), replace(world, robots=robots, openings={"arm1": grip.opening - 0.2}))
+    remember_hands(bench_at(tmp_path), {"arm1": Taken(component=PART, pose=Pose(0, 0))})
     for fidelity, holds in (("physics", PART), ("kinematic", None)):
-        seen = asyncio.run(SimDevice(setup, tmp_path, fidelity, clock=lambda: "").observe())
+        seen = asyncio.run(SimDevice(setup, bench_at(tmp_path), fidelity, clock=lambda: "").observe())
         assert seen.robots["arm1"].holding == holds
         assert (seen.components[PART].presence == "held") == bool(holds)
 
@@ -223,9 +224,9 @@ def test_a_part_that_a_hand_which_was_stopped_has_just_let_go_of_is_between_its_
     assert not isinstance(path, Blocked)
     release = next(segment for segment in path.segments if segment.name == "release")
     robots = {"arm1": replace(world.robots["arm1"], joints=release.joints[-1])}
-    save_world(tmp_path, replace(world, robots=robots, openings={"arm1": release.opening}))
-    remember_hands(tmp_path, {"arm1": Taken(component=PART, pose=Pose(0, 0))})
-    seen = asyncio.run(SimDevice(SETUP, tmp_path, "physics", clock=lambda: "").observe())
+    save_world(bench_at(tmp_path), replace(world, robots=robots, openings={"arm1": release.opening}))
+    remember_hands(bench_at(tmp_path), {"arm1": Taken(component=PART, pose=Pose(0, 0))})
+    seen = asyncio.run(SimDevice(SETUP, bench_at(tmp_path), "physics", clock=lambda: "").observe())
     assert not seen.unknown and seen.robots["arm1"].holding is None
     pose = seen.components[PART].pose
     assert pose is not None and pose.distance(GOAL) < 0.5 and abs(angle_between(pose.yaw, GOAL.yaw)) < 0.5

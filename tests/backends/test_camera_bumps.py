@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_at import bench_at
 from benches import sim
 
 from pico.backends.sim.cameras import bump, eyes_of
@@ -35,14 +36,14 @@ def test_a_bump_stays_until_a_reset(setup: Setup, tmp_path: Path) -> None:
     table = sim(setup, tmp_path).world
     table.bump("left", shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
     table.bump("left", shift=(0.0, 0.0, -1.0), turn=(0.0, 0.0, 0.5))
-    assert load_world(setup, tmp_path)[0].cameras == {"left": BY}
+    assert load_world(setup, bench_at(tmp_path))[0].cameras == {"left": BY}
     table.reset()
-    assert load_world(setup, tmp_path)[0].cameras == {}
+    assert load_world(setup, bench_at(tmp_path))[0].cameras == {}
 
 
 def test_a_world_stored_before_cameras_had_bumps_is_read(setup: Setup, tmp_path: Path) -> None:
-    save_world(tmp_path, new_world(setup))
-    data = json.loads((tmp_path / ".pico/sim/world.json").read_text())
+    save_world(bench_at(tmp_path), new_world(setup))
+    data = json.loads((tmp_path / ".pico/benches/sim/world.json").read_text())
     del data["cameras"]
     assert world_from_json(data) == new_world(setup)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import apply, execute, plan_to, shel, sim
 from results import RunResult
 from tables import change_world
@@ -22,7 +23,7 @@ SETUP, C3 = shel("gantry")
 
 
 def run_with(root: Path, kind: str, rate: float = 1.0, seed: int = 1) -> tuple[Plan, RunResult]:
-    save_faults(root, Faults(rates={kind: rate}, seed=seed))
+    save_faults(bench_at(root), Faults(rates={kind: rate}, seed=seed))
     planned, result, _ = apply(sim(SETUP, root), C3, "r1")
     return planned, result
 
@@ -33,7 +34,7 @@ def told(result: RunResult, kinds: set[str]) -> set[str]:
 
 def got_over(root: Path) -> None:
     """Without faults the next applies reach the goal; what fell over a hand puts upright."""
-    save_faults(root, Faults())
+    save_faults(bench_at(root), Faults())
     for number in range(3):
         bench = sim(SETUP, root)
         for name, part in asyncio.run(bench.observe()).components.items():
@@ -105,7 +106,7 @@ def test_a_rate_is_a_share_of_the_operations() -> None:
 def test_after_a_power_failure_axes_are_homed_first_and_the_shutter_is_closed(tmp_path: Path) -> None:
     apply(sim(SETUP, tmp_path), C3, "r1")
     change_world(SETUP, tmp_path, "test", lambda w: power_cycle(SETUP, w))
-    world, _ = load_world(SETUP, tmp_path)
+    world, _ = load_world(SETUP, bench_at(tmp_path))
     assert world.components["p1"].values["angle"].status == "unknown"
     assert world.components["laser"].values["shutter"].value == "closed"
     planned = asyncio.run(plan_to(sim(SETUP, tmp_path), C3))
@@ -125,7 +126,7 @@ def test_the_lab_can_say_the_faults(tmp_path: Path) -> None:
 def test_what_slipped_is_told_as_tried_again_and_what_stops_everything_leaves_the_rest(tmp_path: Path) -> None:
     from benches import run
 
-    save_faults(tmp_path, Faults(rates={"slip": 1.0}))
+    save_faults(bench_at(tmp_path), Faults(rates={"slip": 1.0}))
     bench = sim(SETUP, tmp_path)
 
     async def go():  # type: ignore[no-untyped-def]

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from benches import execute, plan_to, run, shel, sim
 from oracles.unfinished import unfinished
 from results import RunResult
@@ -67,7 +68,7 @@ def cut_short(root: Path, phase: str, how: str, share: float = 0.0) -> RunResult
 @pytest.mark.parametrize(("phase", "goes_back"), [("approach", True), ("lift", True), ("lower", False)])
 def test_a_part_goes_to_its_goal_or_back_and_the_hand_is_empty(tmp_path: Path, phase: str, goes_back: bool) -> None:
     result = cut_short(tmp_path, phase, "halt")
-    world, _ = load_world(SETUP, tmp_path)
+    world, _ = load_world(SETUP, bench_at(tmp_path))
     pose = world.components["p1"].pose
     assert pose is not None
     assert world.robots["arm1"].holding is None
@@ -82,7 +83,7 @@ def test_a_part_goes_to_its_goal_or_back_and_the_hand_is_empty(tmp_path: Path, p
 
 def test_stopped_the_shutter_is_closed_the_part_held_and_the_journal_whole(tmp_path: Path) -> None:
     cut_short(tmp_path, "transit", "stop", share=0.4)
-    world, _ = load_world(SETUP, tmp_path)
+    world, _ = load_world(SETUP, bench_at(tmp_path))
     assert world.robots["arm1"].holding == "p1"
     assert world.components["laser"].values["shutter"].value == "closed"
     bench = sim(SETUP, tmp_path)

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.lease import BenchLock
@@ -16,7 +17,8 @@ HOLD = """
 import sys
 from pathlib import Path
 from pico.edge.lease import BenchLock
-lease = BenchLock(Path(sys.argv[1])).acquire("pico apply e1")
+from pico.places.bench import BenchPlace
+lease = BenchLock(BenchPlace(Path(sys.argv[1]), "sim")).acquire("pico apply e1")
 print(lease.token, flush=True)
 sys.stdin.read()
 """
@@ -35,7 +37,7 @@ def test_a_second_process_is_told_who_has_the_bench_and_gets_it_when_that_one_is
     process = holder(tmp_path)
     try:
         with pytest.raises(PicoError) as caught:
-            BenchLock(tmp_path).acquire("pico apply e2")
+            BenchLock(bench_at(tmp_path)).acquire("pico apply e2")
         assert caught.value.exit_code == ExitCode.LOCKED
         summary = caught.value.diagnostics[0].summary
         assert f"process {process.pid}" in summary
@@ -43,19 +45,19 @@ def test_a_second_process_is_told_who_has_the_bench_and_gets_it_when_that_one_is
     finally:
         process.kill()
         process.communicate()
-    assert BenchLock(tmp_path).acquire("pico apply e2").token == 2
+    assert BenchLock(bench_at(tmp_path)).acquire("pico apply e2").token == 2
 
 
 def test_tokens_increase_from_lease_to_lease(tmp_path: Path) -> None:
     tokens = []
     for _ in range(12):
-        with BenchLock(tmp_path).held("test") as lease:
+        with BenchLock(bench_at(tmp_path)).held("test") as lease:
             tokens.append(lease.token)
     assert tokens == list(range(1, 13))
 
 
 def test_a_lock_is_not_taken_twice_in_one_process_either(tmp_path: Path) -> None:
-    first, second = BenchLock(tmp_path), BenchLock(tmp_path)
+    first, second = BenchLock(bench_at(tmp_path)), BenchLock(bench_at(tmp_path))
     first.acquire("one")
     for lock in (first, second):
         with pytest.raises(PicoError, match="one"):
@@ -69,13 +71,13 @@ def test_a_lock_is_not_taken_twice_in_one_process_either(tmp_path: Path) -> None
 def test_a_folder_that_cannot_be_written_is_a_diagnostic(tmp_path: Path) -> None:
     tmp_path.chmod(0o500)
     with pytest.raises(PicoError, match="cannot be locked"):
-        BenchLock(tmp_path).acquire("test")
+        BenchLock(bench_at(tmp_path)).acquire("test")
 
 
 def test_a_file_in_the_way_is_a_diagnostic(tmp_path: Path) -> None:
     (tmp_path / ".pico").write_text("")
     with pytest.raises(PicoError, match="cannot be locked"):
-        BenchLock(tmp_path).acquire("test")
+        BenchLock(bench_at(tmp_path)).acquire("test")
 
 
 def test_what_a_killed_mover_was_writing_is_cleared_by_whoever_takes_the_bench_next(tmp_path: Path) -> None:
@@ -83,6 +85,6 @@ def test_what_a_killed_mover_was_writing_is_cleared_by_whoever_takes_the_bench_n
     process.kill()
     process.communicate()
     for number in (process.pid, os.getpid()):
-        (tmp_path / ".pico" / f".memory.json.{number}.tmp").touch()
-    with BenchLock(tmp_path).held("test"):
-        assert [p.name for p in (tmp_path / ".pico").glob("*.tmp")] == [f".memory.json.{os.getpid()}.tmp"]
+        (tmp_path / ".pico/benches/sim" / f".memory.json.{number}.tmp").touch()
+    with BenchLock(bench_at(tmp_path)).held("test"):
+        assert [p.name for p in (tmp_path / ".pico/benches/sim").glob("*.tmp")] == [f".memory.json.{os.getpid()}.tmp"]

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import shel, sim
 
 from pico.backends.sim.device import SimDevice
@@ -25,7 +26,7 @@ def operations(root: Path, kind: str, *wanted: tuple[str, str, dict[str, object]
     """Do operations one after the other on a bench on which every one that can goes wrong so."""
 
     async def do() -> list[OperationResult]:
-        device = SimDevice(SETUP, root, clock=lambda: "2026-11-01T12:00:00Z")
+        device = SimDevice(SETUP, bench_at(root), clock=lambda: "2026-11-01T12:00:00Z")
         await device.take(1, lambda _: None)
         found = []
         for number, (primitive, component, arguments) in enumerate(wanted):
@@ -37,12 +38,12 @@ def operations(root: Path, kind: str, *wanted: tuple[str, str, dict[str, object]
         await device.leave()
         return found
 
-    save_faults(root, Faults(rates={kind: 1.0} if kind else {}, seed=1))
+    save_faults(bench_at(root), Faults(rates={kind: 1.0} if kind else {}, seed=1))
     return asyncio.run(do())
 
 
 def world(setup: Setup, root: Path) -> World:
-    return load_world(setup, root)[0]
+    return load_world(setup, bench_at(root))[0]
 
 
 OPEN = ("set", "laser", {"tunable": "shutter", "to": "open"})

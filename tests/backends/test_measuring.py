@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_at import bench_at
 
 from pico.backends.conditions import conditions
 from pico.backends.sim.readings import FOLDER
@@ -37,7 +38,7 @@ def operation(component: str, name: str, id: str = "op1") -> Operation:
 
 def results(root: Path, *operations: Operation, setup: Setup = SETUP) -> list[OperationResult]:
     async def run() -> list[OperationResult]:
-        bench = embedded(setup, root, "sim", "kinematic")
+        bench = embedded(setup, bench_at(root), "kinematic")
         lease = await bench.acquire("test")
         try:
             return await asyncio.gather(*(bench.execute(op, f"r1/{op.id}/1", lease) for op in operations))
@@ -55,7 +56,7 @@ def measured(root: Path, component: str, name: str, setup: Setup = SETUP) -> Mea
 
 
 def peeked(root: Path, component: str, name: str) -> Measurement:
-    return asyncio.run(embedded(SETUP, root, "sim", "kinematic").peek(component, name))
+    return asyncio.run(embedded(SETUP, bench_at(root), "kinematic").peek(component, name))
 
 
 def test_a_set_point_is_read_back(tmp_path: Path) -> None:
@@ -65,8 +66,8 @@ def test_a_set_point_is_read_back(tmp_path: Path) -> None:
 
 
 def test_a_set_point_that_nobody_knows_is_not_measured(tmp_path: Path) -> None:
-    world = load_world(SETUP, tmp_path)[0]
-    save_world(tmp_path, world.with_value("p1", "angle", ObservedValue(value=None, status="unknown")))
+    world = load_world(SETUP, bench_at(tmp_path))[0]
+    save_world(bench_at(tmp_path), world.with_value("p1", "angle", ObservedValue(value=None, status="unknown")))
     (result,) = results(tmp_path, operation("p1", "angle"))
     assert result.error is not None and "p1.angle can't be read back" in result.error.summary
 
@@ -74,14 +75,16 @@ def test_a_set_point_that_nobody_knows_is_not_measured(tmp_path: Path) -> None:
 def test_a_pose_is_what_the_cameras_see_not_what_is_known(tmp_path: Path) -> None:
     found = measured(tmp_path, "p1", "pose")
     assert isinstance(found.value, dict) and isinstance(found.sigma, dict)
-    seen, true = Pose(**found.value), load_world(SETUP, tmp_path)[0].components["p1"].pose
+    seen, true = Pose(**found.value), load_world(SETUP, bench_at(tmp_path))[0].components["p1"].pose
     assert true is not None and 0 < seen.distance(true) < 0.3
     assert found.sigma["x"] > 0 and (found.kernel, found.kernel_version) == ("markers", "1")
     assert found.settings["seen by"] == "stereo" and found.settings["angle"] == 0.0
 
 
 def test_a_part_that_no_camera_sees_has_no_pose_to_be_measured(tmp_path: Path) -> None:
-    save_world(tmp_path, load_world(SETUP, tmp_path)[0].with_body("p1", presence="missing", pose=None))
+    save_world(
+        bench_at(tmp_path), load_world(SETUP, bench_at(tmp_path))[0].with_body("p1", presence="missing", pose=None)
+    )
     (result,) = results(tmp_path, operation("p1", "pose"))
     assert result.error is not None and "p1" in result.error.summary and result.outcome == "failed"
 
@@ -100,15 +103,15 @@ def test_a_peek_opens_nothing_and_nothing_of_it_is_assured(tmp_path: Path) -> No
     found = peeked(tmp_path, "p1", "angle")
     assert (found.value, found.assured) == (0.0, ())
     assert dict(found.not_assured) == {"settled": PEEKED, "arm parked": PEEKED}
-    assert not embedded(SETUP, tmp_path, "sim", "kinematic").journal.records()
+    assert not embedded(SETUP, bench_at(tmp_path), "kinematic").journal.records()
     with pytest.raises(PicoError, match="voltage of cam is not simulated"):
         peeked(tmp_path, "cam", "voltage")
 
 
 def test_an_arm_that_stands_out_is_told(tmp_path: Path) -> None:
-    world = load_world(SETUP, tmp_path)[0]
+    world = load_world(SETUP, bench_at(tmp_path))[0]
     out = tuple(q + 0.3 for q in world.robots["arm1"].joints)
-    save_world(tmp_path, replace(world, robots={"arm1": ObservedRobot(joints=out)}))
+    save_world(bench_at(tmp_path), replace(world, robots={"arm1": ObservedRobot(joints=out)}))
     found = measured(tmp_path, "p1", "angle")
     assert found.assured == ("settled",)
     assert dict(found.not_assured) == {"arm parked": "arm1 is not at its park pose"}
@@ -183,7 +186,7 @@ def test_a_measurable_is_added_by_one_file(tmp_path: Path, monkeypatch: pytest.M
     package = importlib.import_module(FOLDER)
     monkeypatch.setattr(package, "__path__", [*package.__path__, str(tmp_path / "more")])
     try:
-        assert "cam.voltage" in asyncio.run(embedded(setup, tmp_path, "sim", "kinematic").describe()).measurables
+        assert "cam.voltage" in asyncio.run(embedded(setup, bench_at(tmp_path), "kinematic").describe()).measurables
         assert measured(tmp_path, "cam", "voltage", setup).value == {"peak": 7.5, "mean": 1.0}
     finally:
         sys.modules.pop(f"{FOLDER}.made_up")

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import shel
 from physical import finish, path_to, to
 
@@ -80,8 +81,8 @@ def test_a_look_tells_nothing_of_the_seat() -> None:
 
 def test_a_seat_outlives_the_process_and_old_worlds_have_none(tmp_path: Path) -> None:
     world = new_world(SETUP).with_body(PART, seat=Seat(pitch=0.2, roll=-0.1, height=0.3, count=1))
-    save_world(tmp_path, world)
-    assert load_world(SETUP, tmp_path) == (world, ())
+    save_world(bench_at(tmp_path), world)
+    assert load_world(SETUP, bench_at(tmp_path)) == (world, ())
     old = json.loads(json.dumps(as_json(world)))
     old["components"][PART].pop("seat")
     assert world_from_json(old).components[PART].seat is None

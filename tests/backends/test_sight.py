@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import plan_to, shel, sim
 
 from pico.backends.last_seen import LastSeen, recall, remember
@@ -56,7 +57,7 @@ def planned(root: Path, wanted: LabState = STATE) -> Plan:
 
 
 def change(root: Path, what: Callable[[World], World]) -> None:
-    save_world(root, what(load_world(SETUP, root)[0]))
+    save_world(bench_at(root), what(load_world(SETUP, bench_at(root))[0]))
 
 
 def said(seen: Observation, code: str) -> list[str]:
@@ -102,7 +103,9 @@ UNDER = Pose(470, 590, 0)
 
 def test_what_the_arm_hides_is_where_it_was_last(tmp_path: Path) -> None:
     change(tmp_path, lambda w: replace(nudge(SETUP, w, "p2", dx=270, dy=370), clock=100.0))
-    remember(tmp_path, {"p2": LastSeen(pose=UNDER, uncertainty=Uncertainty(position=0.1, yaw=0.05), time=60.0)})
+    remember(
+        bench_at(tmp_path), {"p2": LastSeen(pose=UNDER, uncertainty=Uncertainty(position=0.1, yaw=0.05), time=60.0)}
+    )
     part = observe(tmp_path).components["p2"]
     assert (part.presence, part.pose, part.age, part.how) == ("seen", UNDER, 40.0, "remembered")
     (text,) = said(observe(tmp_path), "marker-hidden")
@@ -116,9 +119,9 @@ def test_what_nobody_has_seen_is_missing_though_it_may_be_hidden(tmp_path: Path)
 
 def test_only_what_was_seen_is_remembered(tmp_path: Path) -> None:
     observe(tmp_path)
-    assert recall(tmp_path).keys() == new_world(SETUP).components.keys() - {"laser", "cam"}
-    (tmp_path / ".pico" / "seen.json").write_text("{")
-    assert recall(tmp_path) == {}
+    assert recall(bench_at(tmp_path)).keys() == new_world(SETUP).components.keys() - {"laser", "cam"}
+    (tmp_path / ".pico/benches/sim" / "seen.json").write_text("{")
+    assert recall(bench_at(tmp_path)) == {}
 
 
 def with_stranger(world: World, marker: int, pose: Pose) -> World:
@@ -188,7 +191,9 @@ def test_cameras_that_moved_are_not_parts_that_moved(tmp_path: Path, camera: str
     assert {d.code for d in raised.value.diagnostics} == {"calibration-drift"}
     with pytest.raises(PicoError, match="since it was calibrated"):
         planned(tmp_path)
-    assert recall(tmp_path)["p2"].pose.distance(Pose(200, 220)) < 0.3, "what moved cameras see is not remembered"
+    assert recall(bench_at(tmp_path))["p2"].pose.distance(Pose(200, 220)) < 0.3, (
+        "what moved cameras see is not remembered"
+    )
     calibrated(tmp_path)
     assert not observe(tmp_path).problems
 

@@ -90,7 +90,7 @@ def test_a_move_ends_exactly_at_its_goal_takes_its_time_and_is_stored(bench: Loc
 def test_a_known_key_returns_its_result_and_moves_nothing(bench: LocalEdge) -> None:
     operation = move("p1", P1, GOAL)
     first = executed(bench, operation)
-    change_world(SETUP, bench.root, "test", lambda w: nudge(SETUP, w, "p1", dx=3))
+    change_world(SETUP, bench.place.root, "test", lambda w: nudge(SETUP, w, "p1", dx=3))
     assert executed(bench, operation) == first
     assert asyncio.run(bench.observe()).components["p1"].pose == Pose(323, 420, 30)
     with pytest.raises(PicoError, match="other content"):
@@ -119,7 +119,7 @@ def test_only_the_holder_of_the_current_lease_moves_anything(bench: LocalEdge) -
 
 
 def test_looking_works_while_another_moves(bench: LocalEdge) -> None:
-    other = sim(SETUP, bench.root)
+    other = sim(SETUP, bench.place.root)
 
     async def look(lease: Lease) -> None:
         await bench.execute(move("p1", P1, GOAL), "r1/op1/1", lease)
@@ -155,12 +155,12 @@ def test_what_cannot_be_done_fails_with_its_reason_and_changes_nothing(
     assert result.error is not None
     assert result.error.code == code
     assert words in f"{result.error.summary} {result.error.hint}"
-    assert load_world(SETUP, bench.root)[0] == new_world(SETUP)
+    assert load_world(SETUP, bench.place)[0] == new_world(SETUP)
 
 
 def test_an_unknown_object_is_in_the_way_too(bench: LocalEdge) -> None:
     thing = UnknownObject(pose=Pose(330, 420), footprint=SETUP.type_of("p1").geometry.footprint, height=50)
-    change_world(SETUP, bench.root, "test", lambda w: replace(w, unknown={"unknown/17": thing}))
+    change_world(SETUP, bench.place.root, "test", lambda w: replace(w, unknown={"unknown/17": thing}))
     result = executed(bench, move("p1", P1, GOAL))
     assert result.error is not None
     assert "unknown/17" in result.error.summary
@@ -177,7 +177,7 @@ def test_values_are_driven_at_the_speed_of_their_axis_and_then_settle(bench: Loc
 
 def test_homing_makes_an_unknown_value_known(bench: LocalEdge) -> None:
     lost = ObservedValue(value=None, status="unknown")
-    change_world(SETUP, bench.root, "test", lambda w: w.with_value("p1", "angle", lost))
+    change_world(SETUP, bench.place.root, "test", lambda w: w.with_value("p1", "angle", lost))
     result = executed(bench, setting("p1", "angle", None, primitive="home"))
     assert result.after is not None
     assert result.after.values["angle"] == ObservedValue(value=0.0)
@@ -226,7 +226,7 @@ def test_stopped_on_the_way_the_gripper_holds_and_the_next_lease_says_so(bench: 
     events = listening(bench)
     result = during(bench, go)
     assert (result.outcome, result.error.code) == ("failed", "stopped")
-    world, _ = load_world(SETUP, bench.root)
+    world, _ = load_world(SETUP, bench.place)
     assert world.robots["arm1"].holding == "p1"
     pose = world.components["p1"].pose
     assert pose is not None
@@ -255,8 +255,8 @@ def test_the_carried_part_goes_with_the_tool(bench: LocalEdge) -> None:
 
 
 def test_a_broken_world_does_not_leave_the_bench_locked(bench: LocalEdge) -> None:
-    world_path(bench.root).parent.mkdir(parents=True)
-    world_path(bench.root).write_text("{")
+    world_path(bench.place).parent.mkdir(parents=True)
+    world_path(bench.place).write_text("{")
     for _ in range(2):
         with pytest.raises(PicoError, match=r"world\.json"):
             asyncio.run(bench.acquire("test"))
@@ -264,11 +264,11 @@ def test_a_broken_world_does_not_leave_the_bench_locked(bench: LocalEdge) -> Non
 
 def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(bench: LocalEdge) -> None:
     executed(bench, move("p1", P1, GOAL))
-    world_path(bench.root).unlink()
+    world_path(bench.place).unlink()
     with pytest.raises(PicoError, match=r"the simulated table is not in .*sim, and the journal has runs") as caught:
         asyncio.run(bench.observe())
     assert caught.value.diagnostics[0].code == "world-file" and "pico sim reset" in caught.value.diagnostics[0].hint
-    reset_world(SETUP, bench.root, "test")
+    reset_world(SETUP, bench.place.root, "test")
     assert asyncio.run(bench.observe()).components["p1"].pose == P1
 
 
@@ -280,7 +280,7 @@ def test_a_journal_without_a_simulated_run_does_not_ask_for_a_simulated_table(
     if backend:
         bench.journal.begin_run("r1", "plan", "test", about={"environment": {"backend": backend}})
         executed(bench, move("p1", P1, GOAL))
-        world_path(bench.root).unlink()
+        world_path(bench.place).unlink()
     assert asyncio.run(bench.observe()).components["p1"].pose == P1
 
 
@@ -300,7 +300,7 @@ def test_what_it_can_do_is_said_before(bench: LocalEdge) -> None:
 
 def test_the_real_bench_says_what_is_missing(tmp_path: Path) -> None:
     with pytest.raises(PicoError) as caught:
-        opener("hardware")(SETUP, tmp_path, "kinematic", lambda: "")
+        opener("hardware")(SETUP, bench_at(tmp_path, "hardware"), "kinematic", lambda: "")
     (found,) = caught.value.diagnostics
     assert "arm1" in found.detail
     assert "p1.angle" in found.detail

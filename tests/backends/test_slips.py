@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import sim
 
 from pico.backends.sim.hand import power_cycle, slip
@@ -55,18 +56,18 @@ def test_neither_homing_nor_a_power_cycle_brings_it_back_but_a_reset_does(setup:
     table = sim(setup, tmp_path).world
     table.slip("p1", "angle", -0.5)
     table.power_cycle()
-    world = load_world(setup, tmp_path)[0]
+    world = load_world(setup, bench_at(tmp_path))[0]
     assert world.components["p1"].offsets == {"angle": -0.5}
     homed = world.with_value("p1", "angle", ObservedValue(value=0.0))
     assert homed.components["p1"].true_values["angle"] == -0.5
     assert power_cycle(setup, homed).components["p1"].true_values["angle"] == -0.5
     table.reset()
-    assert load_world(setup, tmp_path)[0].components["p1"].offsets == {}
+    assert load_world(setup, bench_at(tmp_path))[0].components["p1"].offsets == {}
 
 
 def test_a_world_stored_before_mounts_slipped_is_read(setup: Setup, tmp_path: Path) -> None:
-    save_world(tmp_path, new_world(setup))
-    data = json.loads((tmp_path / ".pico/sim/world.json").read_text())
+    save_world(bench_at(tmp_path), new_world(setup))
+    data = json.loads((tmp_path / ".pico/benches/sim/world.json").read_text())
     for body in data["components"].values():
         body.pop("offsets", None)
     assert world_from_json(data) == new_world(setup)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bench_at import bench_at
 from benches import sim
 from hypothesis import given
 from hypothesis import strategies as st
@@ -111,11 +112,11 @@ def test_a_camera_with_another_gain_and_a_hot_sensor_counts_otherwise(setup: Set
 def test_nothing_that_is_read_tells_of_it_and_the_world_keeps_it(setup: Setup, lit: World, tmp_path: Path) -> None:
     changed = upset(setup, lit, "lx_100", {"up": 0.1, "pitch": 0.2, "loss": 0.3})
     assert observe(changed, "sim", "") == observe(lit, "sim", "")
-    save_world(tmp_path, changed)
-    assert load_world(setup, tmp_path)[0] == changed
+    save_world(bench_at(tmp_path), changed)
+    assert load_world(setup, bench_at(tmp_path))[0] == changed
     table = sim(setup, tmp_path).world
     table.reset()
-    assert load_world(setup, tmp_path)[0].components["lx_100"].unseen is None
+    assert load_world(setup, bench_at(tmp_path))[0].components["lx_100"].unseen is None
 
 
 def test_what_befell_a_part_adds_up(setup: Setup, lit: World) -> None:

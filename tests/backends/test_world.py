@@ -9,6 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import shel
 from hypothesis import given
 from hypothesis import strategies as st
@@ -35,11 +36,11 @@ SETUP, _ = shel()
 def test_what_a_killed_writer_left_beside_the_world_is_cleared_by_who_reads_it(tmp_path: Path) -> None:
     dead = subprocess.Popen(["true"])
     dead.wait()
-    save_world(tmp_path, new_world(SETUP))
-    path = world_path(tmp_path)
+    save_world(bench_at(tmp_path), new_world(SETUP))
+    path = world_path(bench_at(tmp_path))
     for number in (dead.pid, os.getpid()):
         path.with_name(f".world.json.{number}.tmp").touch()
-    load_world(SETUP, tmp_path)
+    load_world(SETUP, bench_at(tmp_path))
     assert {p.name for p in path.parent.iterdir()} == {"world.json", f".world.json.{os.getpid()}.tmp"}
 
 
@@ -76,7 +77,7 @@ def test_a_value_starts_as_its_type_says_or_where_it_is_safest(kind: Tunable, fi
 
 
 def test_a_lab_without_a_stored_world_gets_a_new_one_and_looking_writes_nothing(tmp_path: Path) -> None:
-    assert load_world(SETUP, tmp_path) == (new_world(SETUP), ())
+    assert load_world(SETUP, bench_at(tmp_path)) == (new_world(SETUP), ())
     assert list(tmp_path.iterdir()) == []
 
 
@@ -133,25 +134,25 @@ BROKEN = [
 
 @pytest.mark.parametrize("content", BROKEN)
 def test_a_broken_file_is_one_diagnostic_that_names_it_and_the_way_out(tmp_path: Path, content: str) -> None:
-    path = world_path(tmp_path)
+    path = world_path(bench_at(tmp_path))
     path.parent.mkdir(parents=True)
     path.write_text(content, encoding="latin-1")
     with pytest.raises(PicoError) as caught:
-        load_world(SETUP, tmp_path)
+        load_world(SETUP, bench_at(tmp_path))
     (found,) = caught.value.diagnostics
     assert str(path) in found.summary
     assert "pico sim reset" in found.hint
     reset_world(SETUP, tmp_path, "test")
-    assert load_world(SETUP, tmp_path) == (new_world(SETUP), ())
+    assert load_world(SETUP, bench_at(tmp_path)) == (new_world(SETUP), ())
 
 
 def test_a_file_cut_off_while_it_was_written_is_never_seen(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     old = replace(new_world(SETUP), clock=1.0)
-    save_world(tmp_path, old)
+    save_world(bench_at(tmp_path), old)
     monkeypatch.setattr("os.fsync", lambda _: (_ for _ in ()).throw(OSError(28, "No space left on device")))
     with pytest.raises(PicoError, match="no space left"):
-        save_world(tmp_path, replace(old, clock=2.0))
-    assert load_world(SETUP, tmp_path)[0] == old
+        save_world(bench_at(tmp_path), replace(old, clock=2.0))
+    assert load_world(SETUP, bench_at(tmp_path))[0] == old
 
 
 # by hand
@@ -239,6 +240,6 @@ def test_a_part_of_another_type_keeps_what_tunables_they_share() -> None:
 
 
 def test_nobody_changes_a_table_that_somebody_moves(tmp_path: Path) -> None:
-    with BenchLock(tmp_path).held("test"), pytest.raises(PicoError) as caught:
-        embedded(SETUP, tmp_path, "sim", "kinematic").world.nudge("p1", dx=1)
+    with BenchLock(bench_at(tmp_path)).held("test"), pytest.raises(PicoError) as caught:
+        embedded(SETUP, bench_at(tmp_path), "kinematic").world.nudge("p1", dx=1)
     assert caught.value.exit_code == ExitCode.LOCKED

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from attended import ended_when
+from bench_at import bench_at
 
 import pico
 from pico.backends.sim.store import load_world, save_world
@@ -65,11 +66,11 @@ def test_a_held_component_is_drawn_in_the_hand(folder: Path) -> None:
 
 def test_a_toppled_component_lies_where_it_fell(folder: Path) -> None:
     with pico.open(folder) as bench:
-        world, _ = load_world(bench.setup, folder)
+        world, _ = load_world(bench.setup, bench_at(folder))
         pose = world.components["p2"].pose
         lying = FreePose(position=(600.0, 300.0, 30.0), quaternion=(0.7071, 0.7071, 0.0, 0.0))
         fallen = replace(world.components["p2"], presence="toppled", pose=pose, free=lying)
-        save_world(folder, replace(world, components={**world.components, "p2": fallen}))
+        save_world(bench_at(folder), replace(world, components={**world.components, "p2": fallen}))
         placement = places(bench.setup, bench.observe(), bench.sim.placements())["p2"]
         assert placement == bench.sim.placements()["p2"]
         assert placement.tilt == pytest.approx(90, abs=0.1)

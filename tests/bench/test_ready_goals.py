@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 import yaml
+from bench_at import bench_at
 
 import pico
 from pico.backends.sim.lighted import unseen_of
@@ -51,7 +52,7 @@ def bench(folder: Path, parts: str, **tunables: Mapping[str, Any]) -> Bench:
 
 def truth(opened: Bench, folder: Path) -> Light:
     """The light as it truly is, irises and shutters open."""
-    world = load_world(opened.setup, folder)[0]
+    world = load_world(opened.setup, bench_at(folder))[0]
     standing = {n: b for n, b in world.components.items() if b.pose is not None}
     unseen = {n: one for n, b in standing.items() if (one := unseen_of(opened.setup, n, b))}
     values = {

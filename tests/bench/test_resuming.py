@@ -185,6 +185,6 @@ def test_a_journal_that_keeps_names_of_slots_is_undone_into_them(bench: Bench, m
 def test_a_bench_whose_lock_file_was_deleted_goes_on(bench: Bench) -> None:
     bench.apply("e1")
     bench.apply("C3")
-    (bench.root / ".pico" / "lock").unlink()
+    (bench.root / ".pico/benches/sim" / "lock").unlink()
     assert bench.apply("e1").outcome == "done"
     assert bench.apply("C3").outcome == "done"

@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from commanding import Answer, Brought, Pico, Typed, edit
 from pico_cli.main import main
 from test_stopping_commands import started
@@ -245,7 +246,7 @@ def test_another_one_under_way_is_named(history: dict[str, str], pico: Pico) -> 
 
 
 def test_a_bench_in_use_is_told_and_the_search_goes_on_later(history: dict[str, str], pico: Pico) -> None:
-    with BenchLock(Path.cwd()).held("somebody's apply"):
+    with BenchLock(bench_at(Path.cwd())).held("somebody's apply"):
         answer = pico("bisect", "run", "main", "good", "--expect", LIMIT, *YES)
         assert answer.code == 5 and "somebody's apply" in answer.err and "pico bisect continue" in answer.err
         assert pico("bisect", "step", "-y", "--expect", "p1.pose.x < 100").code == 133

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico
 
 from pico.edge.link import place
@@ -42,12 +43,12 @@ def served(root: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], Any
 def test_another_process_reaches_it_until_it_is_ended(shel: Path, pico: Pico, how: signal.Signals) -> None:
     with served(shel) as (process, said):
         assert (said["lab"], said["backend"], said["devices"]) == ("shel", "sim", {})
-        assert Path(said["socket"]).is_socket() and place.find(shel) == Path(said["socket"])
+        assert Path(said["socket"]).is_socket() and place.find(bench_at(shel)) == Path(said["socket"])
         assert pico("set", "p1", "angle=7", "-y").code == 0
-        holder = json.loads((shel / ".pico" / "edge.json").read_text())
+        holder = json.loads((shel / ".pico/benches/sim" / "edge.json").read_text())
         assert holder["pid"] == process.pid
         process.send_signal(how)
-        assert process.wait(60) == 0 and place.find(shel) is None
+        assert process.wait(60) == 0 and place.find(bench_at(shel)) is None
     assert "7" in pico("get", "p1.angle").out, "the bench is as it was left"
 
 
@@ -70,4 +71,4 @@ def test_a_whole_emulated_bench_is_brought_up_and_only_who_means_it_reaches_it(
         assert read["value"] == pytest.approx(7, abs=0.01)
         process.send_signal(signal.SIGTERM)
         assert process.wait(60) == 0
-    assert (shel / ".pico" / "emulated" / "world.json").exists()
+    assert (shel / ".pico/benches/emulated" / "world.json").exists()

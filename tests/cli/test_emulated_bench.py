@@ -53,7 +53,7 @@ def operations(answer: Any) -> list[tuple[Any, ...]]:
 
 
 def world(root: Path) -> Any:
-    return json.loads((root / ".pico" / "emulated" / "world.json").read_text())
+    return json.loads((root / ".pico/benches/emulated" / "world.json").read_text())
 
 
 def stands(root: Path, name: str) -> Pose:
@@ -70,7 +70,7 @@ def test_what_was_applied_is_there_and_nothing_is_left_to_do(wired: Path, pico: 
     assert stands(wired, "p1").distance(Pose(290, 420, 0)) < 0.1
     again = pico(*EMULATED, "plan", "C2", "--detailed-exitcode")
     assert again.code == 0, again.out
-    assert not (wired / ".pico" / "sim").exists(), "the simulator's table is another"
+    assert not (wired / ".pico/benches/sim").exists(), "the simulator's table is another"
     assert "  emulated  " in pico("runs").out
 
 
@@ -137,7 +137,7 @@ def test_a_control_box_that_was_away_while_nobody_asked_is_told_and_got_ready_ag
 
 def test_somebody_at_the_table_keeps_the_arm_from_moving(wired: Path, pico: Pico) -> None:
     applied(pico, "C1")
-    path = wired / ".pico" / "emulated" / "world.json"
+    path = wired / ".pico/benches/emulated" / "world.json"
     path.write_text(json.dumps({**world(wired), "person": True}))
     answer = pico(*EMULATED, "apply", "C2", "--auto-approve")
     assert answer.code == 7 and "nobody_near_the_arm" in answer.out + answer.err

@@ -81,7 +81,7 @@ def once(condition: Callable[[], bool], act: Callable[[], object]) -> Iterator[N
 
 
 def world(root: Path) -> Any:
-    return json.loads((root / ".pico" / "emulated" / "world.json").read_text())
+    return json.loads((root / ".pico/benches/emulated" / "world.json").read_text())
 
 
 def test_a_collision_on_the_way_is_told_and_the_part_is_set_down_by_what_comes_next(wired: Path, pico: Pico) -> None:
@@ -105,7 +105,7 @@ def test_an_arm_that_is_lost_on_the_way_is_told(wired: Path, pico: Pico) -> None
 
 
 def test_a_mount_that_is_stuck_is_told_by_its_tunable(wired: Path, pico: Pico) -> None:
-    path = wired / ".pico" / "emulated" / "world.json"
+    path = wired / ".pico/benches/emulated" / "world.json"
     path.write_text(json.dumps({**world(wired), "stuck": ["hwp.angle"]}))
     answer = pico(*EMULATED, "set", "hwp", "angle=40", "--auto-approve")
     assert answer.code == 1 and "set of hwp.angle, failed" in answer.err, answer.out + answer.err

@@ -75,7 +75,7 @@ def test_a_key_turns_a_knob_and_is_put_back(knob: None, lab: Path, pico: Pico, f
     assert answer.code == 0, answer.out + answer.err
     assert ("turn_knob", "m1", "done") in last(pico)
     assert knob_of(pico) == {**knob_of(pico), "value": 90, "status": "commanded"}
-    world = json.loads((lab / ".pico" / "sim" / "world.json").read_text())
+    world = json.loads((lab / ".pico/benches/sim" / "world.json").read_text())
     assert world["components"]["knob_key"]["presence"] == "seen" and world["robots"]["arm1"].get("holding") is None
 
 

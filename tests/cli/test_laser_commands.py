@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico, edit
 
 from pico.bench.bench import Bench
@@ -103,7 +104,7 @@ def test_an_arming_onto_a_housing_is_refused_by_the_audit_and_arms_nothing(guard
     assert pico("apply", "--yes").code == 0  # the laser stays shut
     told = pico("laser", "arm", "laser", "-y")
     assert told.code == 7 and "error[beam-audit]" in told.err
-    assert row(pico)["lets"] == "nothing" and not armings.kept(guarded)
+    assert row(pico)["lets"] == "nothing" and not armings.kept(bench_at(guarded))
 
 
 def test_nothing_else_lets_light_out(guarded: Path, pico: Pico) -> None:
@@ -143,7 +144,7 @@ def test_a_file_that_is_broken_or_of_somebody_else_arms_nothing_and_shuts_the_la
     guarded: Path, pico: Pico, broken: str
 ) -> None:
     assert pico("apply", "--yes").code == 0 and pico("laser", "arm", "laser", "-y").code == 0
-    kept = guarded / ".pico" / "armed" / "laser.json"
+    kept = guarded / ".pico/benches/sim" / "armed" / "laser.json"
     kept.write_text(broken)
     assert row(pico)["lets"] == "nothing" and row(pico)["broken"]
     told = pico("set", "cam.exposure", "8", "-y")
@@ -153,7 +154,7 @@ def test_a_file_that_is_broken_or_of_somebody_else_arms_nothing_and_shuts_the_la
 
 def test_an_arming_that_a_checkout_brought_arms_nothing(guarded: Path, pico: Pico) -> None:
     assert pico("apply", "--yes").code == 0 and pico("laser", "arm", "laser", "-y").code == 0
-    kept = guarded / ".pico" / "armed" / "laser.json"
+    kept = guarded / ".pico/benches/sim" / "armed" / "laser.json"
     longer = json.loads(kept.read_text())
     longer["ends"] = "2099-01-01T00:00:00Z"
     kept.write_text(json.dumps(longer))

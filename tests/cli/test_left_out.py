@@ -133,7 +133,7 @@ def test_stop_asks_no_manifest(shel: Path, pico: Pico) -> None:
 
 def test_a_simulated_table_that_is_gone_is_never_taken_for_one_with_every_part_at_home(shel: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
-    (shel / ".pico" / "sim" / "world.json").unlink()
+    (shel / ".pico/benches/sim" / "world.json").unlink()
     before = (shel / "state" / "table.yaml").read_text()
     for command in ("status", "plan", "capture", "commit --capture -m x", "apply --auto-approve"):
         said = pico(*command.split())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from bench_at import bench_at
 from commanding import Pico, a_run_goes_on
 
 from pico.edge.lease import BenchLock
@@ -32,7 +33,7 @@ def test_movers_end_with_5_and_name_the_holder_and_reading_is_possible(shel: Pat
 def test_who_has_the_bench_for_an_instant_refuses_no_commit(shel: Path, pico: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     pico("sim", "nudge", "p2", "--dx", "4")
-    with BenchLock(shel).held("sim nudge p1"):
+    with BenchLock(bench_at(shel)).held("sim nudge p1"):
         assert pico("status").err == "" and pico("commit", "-m", "p2", "--capture").code == 0
 
 

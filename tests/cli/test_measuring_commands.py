@@ -156,7 +156,7 @@ def test_what_a_measurable_needs_is_set_first_and_set_back_afterwards(needing: P
 
 def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(needing: Path, pico: Pico) -> None:
     pico("set", "cam", "exposure=3", "-y")
-    world = needing / ".pico/sim/world.json"
+    world = needing / ".pico/benches/sim/world.json"
     there = json.loads(world.read_text())
     there["components"]["cam"]["values"]["exposure"] = {"status": "unknown"}
     world.write_text(json.dumps(there))
@@ -167,7 +167,7 @@ def test_a_shutter_that_was_opened_to_measure_closes_also_where_that_failed(need
 
 
 def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: Path, pico: Pico) -> None:
-    world = needing / ".pico/sim/world.json"
+    world = needing / ".pico/benches/sim/world.json"
     pico("set", "laser", "shutter=open", "-y")
     there = json.loads(world.read_text())
     there["robots"]["arm1"]["joints"] = [q + 0.3 for q in there["robots"]["arm1"]["joints"]]

@@ -61,14 +61,14 @@ def test_a_scan_on_whose_way_the_beam_would_damage_a_part_is_left_out_and_the_re
 def test_a_bench_in_the_dark_is_no_reference(shel: Path, pico: Pico) -> None:
     answer = pico("morning", "--yes")
     assert answer.code == 0 and "It is no reference" in answer.out and "no light comes to a detector" in answer.out
-    assert not (shel / ".pico" / "mornings.json").exists()
+    assert not (shel / ".pico/benches/sim" / "mornings.json").exists()
 
 
 def test_a_damaged_file_of_references_is_told_and_kept(lit: Path, pico: Pico) -> None:
-    (lit / ".pico" / "mornings.json").write_text("{")
+    (lit / ".pico/benches/sim" / "mornings.json").write_text("{")
     answer = pico("morning", "--yes")
     assert answer.code == 1 and "mornings.json cannot be read" in answer.err and "Traceback" not in answer.err
-    assert (lit / ".pico" / "mornings.json").read_text() == "{"
+    assert (lit / ".pico/benches/sim" / "mornings.json").read_text() == "{"
 
 
 @pytest.mark.slow
@@ -116,14 +116,14 @@ def test_ctrl_c_sets_all_back_and_keeps_no_reference(lit: Path, pico: Pico) -> N
     out, _ = process.communicate(timeout=60)
     assert process.returncode == 130 and last(out)["cut_short"]
     assert stands(pico) == pytest.approx(STANDING)
-    assert not (lit / ".pico" / "mornings.json").exists()
+    assert not (lit / ".pico/benches/sim" / "mornings.json").exists()
 
 
 def test_an_axis_that_sticks_is_told_and_not_said_to_be_set_back(lit: Path, pico: Pico) -> None:
     pico("sim", "faults", "stick=1", "seed=1")
     answer = pico("morning", "--yes")
     assert answer.code not in (0, 130) and "does not go where it is sent" in answer.err
-    assert "not all is set back" in answer.out and not (lit / ".pico" / "mornings.json").exists()
+    assert "not all is set back" in answer.out and not (lit / ".pico/benches/sim" / "mornings.json").exists()
     pico("sim", "faults", "off")
 
 

@@ -50,7 +50,7 @@ def test_a_state_is_planned_here_applied_there_and_its_run_comes_into_the_commit
     assert committed.code == 0, committed.err
     runs = list((shel / "runs").rglob("run.json"))
     assert len(runs) == 1 and json.loads(runs[0].read_bytes())["outcome"] == "done"
-    assert not (far / "runs").exists() and not (shel / ".pico" / "journal.sqlite").exists()
+    assert not (far / "runs").exists() and not (shel / ".pico/benches/sim" / "journal.sqlite").exists()
     assert pico("--bench", "local", "--json", "plan", "e1").data["operations"], "the own bench stands as it stood"
 
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico, edit
 from pico_cli.app import build
 from pico_cli.at_once.complete import SHARED, candidates
@@ -242,7 +243,7 @@ def test_the_graph_shows_all_branches_with_their_motions(shel: Path, pico: Pico)
 def test_a_bench_in_use_is_told_with_its_holder(shel: Path, pico: Pico) -> None:
     from pico.edge.lease import BenchLock
 
-    with BenchLock(shel).held("somebody's apply"):
+    with BenchLock(bench_at(shel)).held("somebody's apply"):
         answer = pico("apply", "e1", "--auto-approve")
     assert answer.code == 5
     assert "somebody's apply" in answer.err

@@ -191,7 +191,7 @@ def test_recipes_are_tried_in_clones_and_the_bench_stays(turning: Path, pico: Pi
     assert answer.code == 1 and "✗ bad  failed at step 1[1].3" in answer.out and "✓ turning" in answer.out
     suite = ElementTree.parse("tests.xml").getroot()
     assert (suite.get("tests"), suite.get("failures")) == ("2", "1")
-    assert not (turning / ".pico" / "recipes").exists()
+    assert not (turning / ".pico/benches/sim" / "recipes").exists()
 
 
 def test_what_was_done_by_hand_becomes_a_recipe_that_does_it_again(shel: Path, pico: Pico) -> None:
@@ -221,7 +221,7 @@ def test_a_seed_makes_a_new_world_first(turning: Path, pico: Pico) -> None:
     assert pico("set", "hwp", "angle=40", "-y").code == 0
     answer = pico("run", "turning", "--seed", "5", "--yes")
     assert answer.code == 0 and "new simulated world of seed 5" in answer.out
-    assert json.loads((turning / ".pico" / "sim" / "world.json").read_text())["seed"] == 5
+    assert json.loads((turning / ".pico/benches/sim" / "world.json").read_text())["seed"] == 5
     assert pico("get", "hwp.angle").out.split()[1] != "40"
     assert pico("run", "--resume", "--seed", "5", "--yes").code == 1
 

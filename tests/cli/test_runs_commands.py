@@ -237,7 +237,7 @@ def test_a_plan_that_was_committed_is_verified_once_it_was_applied(here: Path, p
 def test_a_damaged_journal_hides_nothing_of_what_commits_prove(here: Path, pico: Pico) -> None:
     for path in (here / ".pico").glob("journal.sqlite*"):
         path.unlink()
-    (here / ".pico" / "journal.sqlite").write_bytes(b"this is no database " * 300)
+    (here / ".pico/benches/sim" / "journal.sqlite").write_bytes(b"this is no database " * 300)
     answer = pico("verify", "HEAD")
     assert "was verified" in answer.out
     assert "is damaged" in answer.err

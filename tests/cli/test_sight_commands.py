@@ -7,6 +7,7 @@ from pathlib import Path
 
 import cv2
 import pytest
+from bench_at import bench_at
 from commanding import Pico, edit
 
 from pico.backends.sim.store import load_world, save_world
@@ -85,7 +86,7 @@ def test_black_pictures_stop_everything(seeing: Path, pico: Pico) -> None:
 def forgotten(root: Path, *names: str) -> None:
     """Take parts out of the manifests; they stay on the table."""
     setup, _ = load_folder(root).require()
-    save_world(root, load_world(setup, root)[0])
+    save_world(bench_at(root), load_world(setup, bench_at(root))[0])
     for path in (root / "lab.yaml", root / "state" / "table.yaml"):
         text = path.read_text()
         for name in names:

@@ -54,7 +54,7 @@ def said(terminal: int, word: str) -> str:
 
 
 def outcomes(folder: Path) -> list[str | None]:
-    journal = Journal(folder / ".pico" / "journal.sqlite")
+    journal = Journal(folder / ".pico/benches/sim" / "journal.sqlite")
     try:
         return [run.outcome for run in journal.runs()]
     finally:
@@ -133,7 +133,7 @@ def test_under_nohup_a_run_goes_on(shel: Path, pico: Pico) -> None:
 def test_ctrl_backslash_stops_at_once_and_leaves_no_core(shel: Path, pico: Pico) -> None:
     process = started(shel, *APPLY)
     process.send_signal(signal.SIGQUIT)
-    (shel / ".pico" / "stop.json").write_text("")  # what waits goes on; who it is for is nobody
+    (shel / ".pico/benches/sim" / "stop.json").write_text("")  # what waits goes on; who it is for is nobody
     _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "Stopping at once" in err
     with Bench.open(shel) as bench:

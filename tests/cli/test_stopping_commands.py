@@ -123,7 +123,7 @@ def test_after_a_kill_what_began_is_settled_and_what_is_held_set_down(shel: Path
     assert "cut-short" not in pico("status").err
     assert "Nothing to do: no gripper holds anything" in pico("recover").out
     assert Bench.open(shel).observe().robots["arm1"].holding is None
-    journal = Journal(shel / ".pico" / "journal.sqlite")
+    journal = Journal(shel / ".pico/benches/sim" / "journal.sqlite")
     assert journal.unsettled() == ()
     assert any(r.kind == "resolved" and r.component == held for r in journal.records())
     journal.close()
@@ -163,9 +163,9 @@ def test_of_a_run_that_was_killed_before_it_moved_anything_that_is_told(shel: Pa
     """`pico runs list` has no such run."""
     with Bench.open(shel) as bench:
         plan = bench.plan("e1")
-    with closing(Journal(shel / ".pico" / "journal.sqlite")) as journal:
+    with closing(Journal(shel / ".pico/benches/sim" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
-    (shel / ".pico" / "run").write_text("r1")
+    (shel / ".pico/benches/sim" / "run").write_text("r1")
     assert "run r1 was killed before it began an operation" in " ".join(pico("status").err.split())
 
 

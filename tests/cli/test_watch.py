@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico, a_run_goes_on, edit
 
 from pico.bench.drifting.drift import Drift, calibration_drift, news, require_heal
@@ -63,7 +64,7 @@ def test_drift_says_what_only_a_person_can_bring_back(applied: Path, pico: Pico)
 def test_drift_without_a_journal_is_told_too(shel: Path, pico: Pico) -> None:
     found = pico("drift", "--json").data["changes"]
     assert {c["by"] for c in found if not c["tolerated"]} == {"unknown"}  # a new bench starts so
-    assert not (shel / ".pico" / "journal.sqlite").exists()
+    assert not (shel / ".pico/benches/sim" / "journal.sqlite").exists()
     assert pico("sim", "nudge", "p1", "--dx", "180", "--dy", "220").code == 0
     assert "by hand" in pico("drift").out
 
@@ -80,7 +81,7 @@ def test_what_the_policy_ignores_is_no_drift(applied: Path, pico: Pico) -> None:
 
 def test_watching_tells_each_change_once_while_somebody_else_has_the_bench(applied: Path, pico: Pico) -> None:
     pico("sim", "nudge", "p2", "--dx", "4")
-    with BenchLock(applied).held("pico apply e2"):
+    with BenchLock(bench_at(applied)).held("pico apply e2"):
         found = pico("drift", "--watch", "--looks", "3", "--interval", "0", "--json")
     assert found.code == 0
     (line,) = found.out.splitlines()

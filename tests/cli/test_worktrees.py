@@ -8,9 +8,10 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico
+from pico.attachment import attached, lab_place, require_attached
 
-from pico.attachment import attached, bench_folder, lab_place, require_attached
 from pico.diagnostics import PicoError
 from pico.edge.lease import BenchLock
 
@@ -52,7 +53,7 @@ def test_the_first_that_moves_has_the_bench_and_the_other_one_plans_against_it(
 ) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
     assert "Nothing to do" in at(pico, other, "plan", "e1")
-    assert not (other / ".pico" / "sim").exists()
+    assert not (other / ".pico/benches/sim").exists()
     at(pico, other, "status")
     at(pico, other, "drift", "--detailed-exitcode")
     at(pico, other, "plan", "e2", "--detailed-exitcode", code=2)
@@ -73,11 +74,11 @@ def test_what_would_move_the_bench_is_refused_in_another_worktree_which_stays_as
     shel: Path, other: Path, pico: Pico, words: tuple[str, ...]
 ) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
-    before = (shel / ".pico/sim/world.json").read_text()
+    before = (shel / ".pico/benches/sim/world.json").read_text()
     said = " ".join(at(pico, other, *words, code=5).split())  # however wide the terminal is
     assert f"only plans: the bench is attached to {shel}" in said and "`pico git attach`" in said
-    assert (shel / ".pico/sim/world.json").read_text() == before
-    assert not (shel / ".pico/sim/faults.json").exists()
+    assert (shel / ".pico/benches/sim/world.json").read_text() == before
+    assert not (shel / ".pico/benches/sim/faults.json").exists()
     assert git(other, "rev-parse", "HEAD") == git(shel, "rev-parse", "e1^0")
 
 
@@ -95,13 +96,13 @@ def test_another_worktree_captures_and_commits_what_the_bench_shows(shel: Path, 
 
 def test_the_bench_moves_to_the_worktree_that_is_attached(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
-    world = (shel / ".pico/sim/world.json").read_bytes()
+    world = (shel / ".pico/benches/sim/world.json").read_bytes()
     answer = pico("-C", str(other), "git", "attach", "--json")
     assert answer.code == 0 and answer.data == {
         "schema": "pico.attached/v1", "folder": str(other), "before": str(shel),
     }  # fmt: skip
-    assert (other / ".pico/sim/world.json").read_bytes() == world
-    assert not (shel / ".pico/sim/world.json").exists()
+    assert (other / ".pico/benches/sim/world.json").read_bytes() == world
+    assert not (shel / ".pico/benches/sim/world.json").exists()
     assert "Nothing to do" in at(pico, shel, "plan", "e1")
     at(pico, other, "apply", "e2", "--auto-approve")
     at(pico, shel, "apply", "e1", "--auto-approve", code=5)
@@ -111,15 +112,15 @@ def test_the_bench_moves_to_the_worktree_that_is_attached(shel: Path, other: Pat
 
 def test_what_a_worktree_had_of_its_own_before_is_set_aside(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
-    (other / ".pico/sim").mkdir(parents=True)
-    (other / ".pico/sim/world.json").write_text("of an older PICO")
+    (other / ".pico/benches/sim").mkdir(parents=True)
+    (other / ".pico/benches/sim/world.json").write_text("of an older PICO")
     at(pico, other, "git", "attach")
     assert (other / ".pico/replaced/sim/world.json").read_text() == "of an older PICO"
 
 
 def test_a_bench_in_use_is_not_taken_away(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
-    with BenchLock(shel).held("somebody's apply"):
+    with BenchLock(bench_at(shel)).held("somebody's apply"):
         assert "somebody's apply" in at(pico, other, "git", "attach", code=5)
     assert attached(lab_place(other)) == shel
 
@@ -137,7 +138,7 @@ def test_a_repository_that_was_moved_or_copied_keeps_its_bench(shel: Path, pico:
     at(pico, shel, "apply", "e1", "--auto-approve")
     copy = shel.parent / "copy"
     shutil.copytree(shel, copy)
-    assert bench_folder(copy) == copy / ".pico"
+    assert bench_at(copy).folder == copy / ".pico"
     at(pico, copy, "apply", "e2", "--auto-approve")
     assert "Nothing to do" in at(pico, shel, "plan", "e1")
 
@@ -156,15 +157,15 @@ def test_two_labs_of_one_repository_are_two_benches(shel: Path, pico: Pico) -> N
         shutil.copytree(shel, inner / name, ignore=shutil.ignore_patterns(".git", ".pico"))
     at(pico, inner / "a", "apply", "--auto-approve")
     assert json.loads((inner / ".git/pico/bench.json").read_text()) == {"a": "../a"}
-    assert not (inner / "b" / ".pico" / "sim").exists()
+    assert not (inner / "b" / ".pico/benches/sim").exists()
     at(pico, inner / "b", "apply", "--auto-approve")
-    assert bench_folder(inner / "b") == inner / "b" / ".pico"
+    assert bench_at(inner / "b").folder == inner / "b" / ".pico"
 
 
 def test_a_lab_outside_git_has_its_bench_beside_it(shel: Path, pico: Pico) -> None:
     shutil.rmtree(shel / ".git")
     at(pico, shel, "apply", "--auto-approve")
-    assert bench_folder(shel) == shel / ".pico"
+    assert bench_at(shel).folder == shel / ".pico"
     at(pico, shel, "git", "attach", code=1)
 
 
@@ -172,7 +173,7 @@ def test_looking_attaches_nobody_and_scratch_folders_are_no_lab(shel: Path, othe
     for words in (("status",), ("plan", "e2"), ("log",), ("check",)):
         pico("-C", str(other), *words)
     (shel / "scratch").mkdir()
-    require_attached(shel / "scratch")
+    require_attached(bench_at(shel / "scratch"))
     assert not lab_place(shel).record.exists()
 
 
@@ -187,7 +188,7 @@ def test_a_record_that_is_damaged_names_nobody(shel: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
     for text in ("", "[]", '{".": 3}', "\0", '{".": "../../../../../../etc"}'):
         lab_place(shel).record.write_text(text)
-        assert bench_folder(shel) == shel / ".pico"
+        assert bench_at(shel).folder == shel / ".pico"
 
 
 def test_a_stop_from_another_worktree_reaches_the_bench(shel: Path, other: Path, pico: Pico) -> None:
@@ -197,7 +198,7 @@ def test_a_stop_from_another_worktree_reaches_the_bench(shel: Path, other: Path,
 
 def test_a_bench_that_is_taken_meanwhile_is_not_moved_by_who_waited(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
-    waiting = BenchLock(shel)
+    waiting = BenchLock(bench_at(shel))
     at(pico, other, "git", "attach")
     with pytest.raises(PicoError) as caught:
         waiting.acquire("pico apply e2")

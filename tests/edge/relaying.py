@@ -15,10 +15,12 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
+from bench_at import bench_at
+
 from pico.disk import write_whole
 from pico.edge.link.server import edge_of
 from pico.edge.network.remotes import Remote, Remotes, keep
+from pico.places.choice import write_choice
 
 TOKEN = "of-a-test"
 BENCH = "shel/bench1"
@@ -45,8 +47,8 @@ async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
     port, key = listener.getsockname()[1], secrets.token_hex(32)
     code, _ = Edges(books.database).invited(BENCH, "test")
     Edges(books.database).enrolled(code, key)
-    write_whole(bench_folder(root) / "enrolment.json", b"{}", folders=True)
-    serving, edge = server(create_app(books)), edge_of(root, "sim", fidelity)
+    write_whole(bench_at(root).folder / "enrolment.json", b"{}", folders=True)
+    serving, edge = server(create_app(books)), edge_of(bench_at(root), fidelity)
     uplink = asyncio.create_task(Uplink(edge, Enrolment(f"http://127.0.0.1:{port}", BENCH, key)).run())
 
     async def told() -> None:
@@ -61,7 +63,7 @@ async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
     with suppress(asyncio.CancelledError):
         await uplink
     await edge.close()
-    (bench_folder(root) / "enrolment.json").unlink()
+    (bench_at(root).folder / "enrolment.json").unlink()
     books.close()
 
 
@@ -114,4 +116,5 @@ def relayed(root: Path, fidelity: str = "kinematic", *, pause: float = 0.0) -> I
 
 def point(lab: Path, url: str, bench: str = "shel/bench1") -> None:
     """Let a checkout know a coordinator, and its bench as the one that is meant."""
-    keep(lab, Remotes({"lab": Remote(url)}, f"lab/{bench}"))
+    keep(lab, Remotes({"lab": Remote(url)}))
+    write_choice(lab, f"lab/{bench}")

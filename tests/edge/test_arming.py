@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from serving import served
 
 from pico.bench.bench import Bench
@@ -60,7 +61,7 @@ def lab(made: Path, tmp_path: Path) -> Path:
 def at(lab: Path, clock: Clock) -> Iterator[Bench]:
     """A bench whose edge has a clock of the test's own."""
     with Bench.open(lab) as bench:
-        bench._edge = embedded(bench.setup, lab, "sim", "kinematic", own_lab.read(lab), clock)
+        bench._edge = embedded(bench.setup, bench_at(lab), "kinematic", own_lab.read(bench_at(lab)), clock)
         yield bench
 
 
@@ -147,7 +148,7 @@ def test_an_arming_counts_until_its_end_and_then_who_has_the_bench_shuts_the_las
         assert not bench.observe().licences
         report = bench.apply(bench.single("cam", "set", exposure="9"))
         assert any("laser was shut: the arming by Ada Lovelace ended" in d.summary for d in report.diagnostics)
-        assert shutter(bench) == "closed" and not armings.kept(lab)
+        assert shutter(bench) == "closed" and not armings.kept(bench_at(lab))
         assert bench.single("laser", "set", shutter="open").exit_code == ExitCode.DENIED
 
 
@@ -164,7 +165,7 @@ def test_a_bench_that_is_served_shuts_the_laser_when_the_arming_ends_though_nobo
         async def minded() -> None:
             monkeypatch.setattr(server, "MINDS", 0.0)
             minding = asyncio.create_task(server._mind(bench.edge))
-            while armings.kept(lab):
+            while armings.kept(bench_at(lab)):
                 await asyncio.sleep(0)
             minding.cancel()
 
@@ -230,10 +231,10 @@ def test_one_client_disarms_while_the_bench_is_anothers(lab: Path) -> None:
 
 
 def test_two_who_write_at_once_do_not_bring_back_what_the_other_took_away(lab: Path) -> None:
-    armings.keep(lab, arming())
-    armings.keep(lab, arming(laser="other"))
-    armings.forget(lab, "laser")
-    assert [one.laser for one in armings.kept(lab)] == ["other"]
+    armings.keep(bench_at(lab), arming())
+    armings.keep(bench_at(lab), arming(laser="other"))
+    armings.forget(bench_at(lab), "laser")
+    assert [one.laser for one in armings.kept(bench_at(lab))] == ["other"]
 
 
 @pytest.mark.parametrize(
@@ -247,14 +248,14 @@ def test_two_who_write_at_once_do_not_bring_back_what_the_other_took_away(lab: P
 def test_an_arming_that_the_policy_does_not_allow_is_refused_by_the_edge(lab: Path, changes: dict[str, Any]) -> None:
     with at(lab, Clock()) as bench:
         denied(lambda: bench.wait(bench.edge.arm(arming(**changes))))
-        assert not armings.kept(lab)
+        assert not armings.kept(bench_at(lab))
 
 
 def test_an_arming_is_for_its_class_and_its_backend(lab: Path) -> None:
     with at(lab, Clock()) as bench:
         bench.wait(bench.edge.arm(arming(laser_class="2")))
         assert "for class 2 only" in bench.single("laser", "set", shutter="open").diagnostics[0].summary
-        armings.keep(lab, arming(backend="hardware"))
+        armings.keep(bench_at(lab), arming(backend="hardware"))
         assert not bench.observe().licences
 
 

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 
 from pico.backends import sim
 from pico.backends.device import Capabilities, Device
@@ -65,12 +66,12 @@ def at(made: Path, tmp_path: Path) -> Iterator[tuple[Bench, Real, Path]]:
     devices: list[Real] = []
 
     def opening(setup: Setup) -> Device:
-        devices.append(Real(sim.opened(setup, root, "kinematic", lambda: NOON)))
+        devices.append(Real(sim.opened(setup, bench_at(root), "kinematic", lambda: NOON)))
         return devices[-1]  # type: ignore[return-value]
 
     with Bench.open(root) as bench:
         bench.backend_name = "hardware"
-        bench._edge = LocalEdge(bench.setup, root, opening, own_lab.read(root), lambda: NOON)
+        bench._edge = LocalEdge(bench.setup, bench_at(root), opening, own_lab.read(bench_at(root)), lambda: NOON)
         yield bench, devices[-1], root
 
 

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bench_at import bench_at
 from benches import plan_to, shel, sim
 from relaying import TOKEN, point, relayed
 from serving import served
@@ -300,7 +301,7 @@ def test_what_stands_in_the_midst_of_a_run_is_not_captured_and_it_is_said_who_ru
 ) -> None:
     run = bench.apply("e1").run
     lease = on_edge(bench, lambda edge: edge.acquire("pico apply"))
-    (lab / ".pico" / "run").write_text(run)  # as if it were not over
+    (lab / ".pico/benches/sim" / "run").write_text(run)  # as if it were not over
     server = "the server of this bench, " if kept is RemoteEdge else ""
     for take in (bench.commit, bench.capture, bench.commits.draft):
         with pytest.raises(
@@ -408,15 +409,15 @@ def test_its_fidelity_counts_only_its_user_reaches_the_socket_and_a_second_serve
     with served(lab, "physics"):
         with Bench.open(lab) as bench:
             assert bench.plan().fidelity == "physics"  # nobody asked for another
-        path = place.find(lab)
+        path = place.find(bench_at(lab))
         assert path is not None
         assert stat.S_IMODE(path.lstat().st_mode) == 0o600 and stat.S_IMODE(path.parent.lstat().st_mode) == 0o700
         words = [sys.executable, "-m", "pico_cli", "-C", str(lab), "edge"]
         second = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
         assert second.returncode == ExitCode.LOCKED and "is served already" in second.stderr
-    assert place.find(lab) is None and not path.exists()
+    assert place.find(bench_at(lab)) is None and not path.exists()
     setup, _ = shel()
-    assert isinstance(opened(setup, lab, "sim", "kinematic"), LocalEdge)
+    assert isinstance(opened(setup, bench_at(lab), "kinematic"), LocalEdge)
 
 
 def test_nonsense_is_answered_and_does_no_harm(lab: Path) -> None:
@@ -426,7 +427,7 @@ def test_nonsense_is_answered_and_does_no_harm(lab: Path) -> None:
     with served(lab):
         for data in (b"\n", b"{}\n", b'{"call":"close","with":[]}\n', b'{"call":"start","with":[1,2]}\n', b"\xff\n"):
             with socket.socket(socket.AF_UNIX) as link:
-                link.connect(str(place.find(lab)))
+                link.connect(str(place.find(bench_at(lab))))
                 link.sendall(data)
                 answer = json.loads(link.makefile("rb").readline())
                 assert answer["error"][0]["code"] == "link" and "no call" in answer["error"][0]["summary"]
@@ -438,8 +439,10 @@ def test_a_lease_ends_with_the_client_that_took_it(lab: Path) -> None:
     code = (
         "import asyncio, os, sys; from pathlib import Path; from pico.edge.link import place;"
         "from pico.edge.link.client import RemoteEdge; from pico.edge.link.line import SocketLine\n"
+        "from pico.places.bench import BenchPlace\n"
         "async def go():\n"
-        " await RemoteEdge(SocketLine(place.find(Path(sys.argv[1])))).acquire('somebody'); os.kill(os.getpid(), 9)\n"
+        " path = place.find(BenchPlace(Path(sys.argv[1]), 'sim'))\n"
+        " await RemoteEdge(SocketLine(path)).acquire('somebody'); os.kill(os.getpid(), 9)\n"
         "asyncio.run(go())"
     )
     with served(lab), Bench.open(lab) as bench:

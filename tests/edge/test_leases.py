@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from serving import served
 
 from pico.bench.bench import Bench
@@ -37,8 +38,8 @@ def on_edge(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Acting]:
     behind = request.param == "behind a socket"
 
     async def go(act: Callable[[Edge], Awaitable[Any]]) -> Any:
-        path = place.find(root)
-        edge: Edge = RemoteEdge(SocketLine(path)) if path else edge_of(root, "sim", "kinematic")
+        path = place.find(bench_at(root))
+        edge: Edge = RemoteEdge(SocketLine(path)) if path else edge_of(bench_at(root), "kinematic")
         try:
             return await asyncio.wait_for(act(edge), 60)
         finally:
@@ -67,7 +68,7 @@ def test_who_only_has_the_bench_loses_it_to_a_stop(on_edge: Acting, tmp_path: Pa
     async def act(edge: Edge) -> None:
         first = await edge.acquire("first")
         assert (await edge.execute(turn(20.0), "r1/op1/1", first)).outcome == "done"
-        await asyncio.to_thread(ask_to_stop, tmp_path / "shel", first.token, how)
+        await asyncio.to_thread(ask_to_stop, bench_at(tmp_path / "shel"), first.token, how)
         while await edge.holder() is not None:
             await asyncio.sleep(0.01)
         with refused(ExitCode.LOCKED):
@@ -102,7 +103,7 @@ def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkey
     root = make_example("shel", tmp_path / "shel").root
 
     async def act() -> None:
-        edge = edge_of(root, "sim", "kinematic")
+        edge = edge_of(bench_at(root), "kinematic")
         for number in range(6):
             seen, angle = await edge.observe(), 10.0 + number
             planner = Planner(edge.setup, None, seen)
@@ -125,7 +126,7 @@ def test_who_follows_a_run_hears_what_became_of_it_where_the_server_is_told_to_e
         plan = planning.plan("e1")
 
     async def act(server: int) -> tuple[list[Event], RunReport]:
-        path = place.find(root)
+        path = place.find(bench_at(root))
         assert path is not None
         edge, events = RemoteEdge(SocketLine(path)), []
         await edge.start(Job(plan=plan, holder="test"), "r1")

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from serving import served
 
 import pico
@@ -26,8 +27,8 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_a_copy_of_a_served_lab_has_a_bench_of_its_own(example: Path, tmp_path: Path) -> None:
     with served(example):
         copy = shutil.copytree(example, tmp_path / "copy")
-        assert place.find(example) is not None
-        assert place.find(copy) is None
+        assert place.find(bench_at(example)) is not None
+        assert place.find(bench_at(copy)) is None
 
 
 def test_a_socket_that_can_not_be_made_is_told_in_a_line(example: Path, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from serving import served
 
 from pico.bench import updating
@@ -42,12 +43,12 @@ def propose(root: Path) -> None:
 
 
 def test_the_first_run_makes_the_lab_the_benchs_own_and_says_so(lab: Path) -> None:
-    assert own_lab.read(lab) is None
+    assert own_lab.read(bench_at(lab)) is None
     with Bench.open(lab) as bench:
         first, second = bench.apply("e1"), bench.apply("e2")
         digest = bench.setup.digest()
     assert [d.code for d in first.diagnostics] == ["bench-lab"] and not second.diagnostics
-    kept = own_lab.read(lab)
+    kept = own_lab.read(bench_at(lab))
     assert kept is not None and kept.at and "pico apply" in kept.by
     assert kept.files["lab.yaml"] == (lab / "lab.yaml").read_text() and "state/table.yaml" not in kept.files
     assert own_lab.setup_of(kept).digest() == digest
@@ -57,7 +58,7 @@ def test_a_looking_command_adopts_nothing(lab: Path) -> None:
     with Bench.open(lab) as bench:
         bench.plan("e1")
         bench.status()
-    assert own_lab.read(lab) is None
+    assert own_lab.read(bench_at(lab)) is None
 
 
 def test_what_the_tree_describes_is_a_proposal_until_it_is_adopted(lab: Path) -> None:
@@ -69,14 +70,14 @@ def test_what_the_tree_describes_is_a_proposal_until_it_is_adopted(lab: Path) ->
         assert bench.setup.digest() == own and "lx_125" in bench.setup.lab.inventory
         (told,) = (d for d in bench.plan().diagnostics if d.code == "bench-lab")
         assert "inventory.lx_125 removed" in told.summary and told.severity == "warning"
-        proposal = updating.proposal(lab)
+        proposal = updating.proposal(bench_at(lab))
         assert proposal.bench == own != proposal.tree and "-  lx_125:" in proposal.patch
         bench.lab.adopt()
         assert bench.setup.digest() == proposal.tree and "lx_125" not in bench.setup.lab.inventory
-        assert not updating.proposal(lab).new
+        assert not updating.proposal(bench_at(lab)).new
         assert not [d for d in bench.plan().diagnostics if d.code == "bench-lab"]
         assert bench.apply().outcome == "done"
-    kept = own_lab.read(lab)
+    kept = own_lab.read(bench_at(lab))
     assert kept is not None and kept.files["lab.yaml"] == (lab / "lab.yaml").read_text()
 
 
@@ -132,7 +133,7 @@ def test_a_state_with_a_part_that_is_only_proposed_names_the_way_out(lab: Path) 
         Bench.open(lab)
     found = next(d for d in refused.value.diagnostics if d.severity == "error")
     assert "lx_new" in found.summary and "pico bench update" in found.hint
-    updating.update(lab, "sim")
+    updating.update(bench_at(lab))
     with Bench.open(lab) as bench:
         assert "lx_new" in bench.setup.lab.inventory
 
@@ -144,7 +145,7 @@ def test_what_is_wrong_with_a_proposal_is_said_and_the_bench_stays(lab: Path) ->
         with pytest.raises(PicoError) as refused:
             bench.lab.adopt()
         assert "seeed" in refused.value.diagnostics[0].summary
-    kept = own_lab.read(lab)
+    kept = own_lab.read(bench_at(lab))
     assert kept is not None and "seeed" not in kept.files["lab.yaml"]
 
 
@@ -164,10 +165,10 @@ def test_nobody_adopts_while_the_bench_is_in_use(lab: Path) -> None:
     "text", ["", "[]", "[" * 100_000, '{"schema": "pico.bench-lab/v9"}', '{"schema": "pico.bench-lab/v1", "files": 3}']
 )
 def test_a_kept_lab_that_cannot_be_read_is_told_with_its_file(tmp_path: Path, text: str) -> None:
-    (tmp_path / ".pico").mkdir()
-    (tmp_path / ".pico" / "lab.json").write_text(text)
+    (tmp_path / ".pico/benches/sim").mkdir(parents=True)
+    (tmp_path / ".pico/benches/sim" / "lab.json").write_text(text)
     with pytest.raises(PicoError) as refused:
-        own_lab.read(tmp_path)
+        own_lab.read(bench_at(tmp_path))
     assert "lab.json" in refused.value.diagnostics[0].summary and refused.value.diagnostics[0].hint
 
 
@@ -175,9 +176,9 @@ def test_a_kept_lab_that_makes_no_sense_any_more_says_how_to_get_on(tmp_path: Pa
     root = make_example("minimal", tmp_path / "minimal").root
     with Bench.open(root) as bench:
         bench.lab.adopt()
-    kept = own_lab.read(root)
+    kept = own_lab.read(bench_at(root))
     assert kept is not None
-    own_lab.write(root, replace(kept, files={"lab.yaml": kept.files["lab.yaml"].replace("table:", "tabel:")}))
+    own_lab.write(bench_at(root), replace(kept, files={"lab.yaml": kept.files["lab.yaml"].replace("table:", "tabel:")}))
     with pytest.raises(PicoError) as refused:
         Bench.open(root)
     assert "`pico bench update`" in refused.value.diagnostics[0].hint
@@ -189,7 +190,7 @@ def test_a_commit_can_neither_replace_nor_take_away_what_the_bench_keeps(tmp_pat
     root = make_example("shel", tmp_path / "shel").root
     with Bench.open(root) as bench:
         bench.apply("e1")
-    path = root / ".pico" / "lab.json"
+    path = root / ".pico/benches/sim" / "lab.json"
     mine = path.read_bytes()
     if what == "gone":
         path.unlink()
@@ -200,19 +201,19 @@ def test_a_commit_can_neither_replace_nor_take_away_what_the_bench_keeps(tmp_pat
         with pytest.raises(PicoError) as refused:
             Bench.open(root)
         assert "`pico bench update`" in refused.value.diagnostics[0].hint
-    found = updating.proposal(root)
+    found = updating.proposal(bench_at(root))
     assert found.new and not found.bench and "+kind: Lab" in found.patch
-    updating.update(root, "sim")
+    updating.update(bench_at(root))
     with Bench.open(root) as bench:
         assert bench.apply("e2").outcome == "done"
-    kept = own_lab.read(root)
+    kept = own_lab.read(bench_at(root))
     assert kept is not None and kept.files["lab.yaml"] == (root / "lab.yaml").read_text()
 
 
 def test_what_git_does_not_hold_is_told_by_nothing(tmp_path: Path) -> None:
-    (tmp_path / ".pico").mkdir()
-    own_lab.write(tmp_path, OwnLab(files={"lab.yaml": "a: 1\n"}, by="me", at="now"))
-    assert own_lab.read(tmp_path) is not None
+    (tmp_path / ".pico/benches/sim").mkdir(parents=True)
+    own_lab.write(bench_at(tmp_path), OwnLab(files={"lab.yaml": "a: 1\n"}, by="me", at="now"))
+    assert own_lab.read(bench_at(tmp_path)) is not None
 
 
 def test_who_throws_the_whole_bench_away_gets_a_new_one(tmp_path: Path) -> None:

@@ -6,20 +6,23 @@ import json
 import os
 import shutil
 import stat
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from relaying import TOKEN, point, relayed
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.network.enrolment import Enrolment, read_enrolment
 from pico.edge.network.kept_gate import KeptGate
+from pico.edge.network.meant import meant
 from pico.edge.network.own_page import OwnPage
-from pico.edge.network.remotes import Remote, Remotes, added, address, chosen, keep, known, removed
+from pico.edge.network.remotes import Far, Remote, Remotes, added, address, keep, known, removed
 from pico.edge.network.tokens import keep_token, token_of, tokens_file
 from pico.history.examples.example import make_example
+from pico.places.choice import write_choice
 
 LAB = Remote("https://lab.example")
 
@@ -41,30 +44,34 @@ def test_remotes_are_kept_beside_the_history_and_no_commit_can_bring_one(lab: Pa
     assert [p for p in lab.rglob("remotes.json") if ".git" not in p.parts] == []
     (lab / ".pico").mkdir(exist_ok=True)
     (lab / ".pico" / "remotes.json").write_text('{"remotes": {"evil": {"url": "http://evil"}}, "default": "evil/a/b"}')
-    assert set(known(lab).named) == {"lab"} and chosen(lab) is None
+    assert set(known(lab).named) == {"lab"} and meant(lab) == bench_at(lab)
 
 
 def test_a_bench_is_meant_by_word_by_default_or_by_address(lab: Path) -> None:
-    keep(lab, Remotes({"lab": LAB}, "lab/shel/bench1"))
-    found = chosen(lab)
-    assert found is not None and (found.remote, found.name) == (LAB, "shel/bench1")
-    assert chosen(lab, "shel/bench1") == chosen(lab, "lab/shel/bench1") == chosen(lab, "pico://lab.example/shel/bench1")
-    assert chosen(lab, "local") is None
-    near = chosen(lab, "pico://127.0.0.1:8700/shel/bench1")
-    assert near is not None and near.remote.url == "http://127.0.0.1:8700" and near.folder != found.folder
+    keep(lab, Remotes({"lab": LAB}))
+    write_choice(lab, "lab/shel/bench1")
+    found = meant(lab)
+    assert isinstance(found, Far) and (found.remote, found.name) == (LAB, "shel/bench1")
+    words = ("shel/bench1", "lab/shel/bench1", "pico://lab.example/shel/bench1")
+    assert {meant(lab, word=word) for word in words} == {found}
+    assert meant(lab, word="local") == meant(lab, word="sim") == meant(lab, backend="sim") == bench_at(lab)
+    near = meant(lab, word="pico://127.0.0.1:8700/shel/bench1")
+    assert isinstance(near, Far) and near.remote.url == "http://127.0.0.1:8700" and near.folder != found.folder
     keep(lab, added(known(lab), "other", Remote("http://127.0.0.1:1")))
     with pytest.raises(PicoError, match="of which coordinator") as caught:
-        chosen(lab, "shel/bench1")
+        meant(lab, word="shel/bench1")
     assert caught.value.diagnostics[0].hint == "`lab/shel/bench1`, `other/shel/bench1`"
     keep(lab, removed(known(lab), "lab"))
-    assert known(lab).default == "" and chosen(lab) is None
+    with pytest.raises(PicoError, match="the bench that this worktree chose is unknown") as lost:
+        meant(lab)
+    assert "`pico bench use sim`" in str(lost.value.diagnostics[0].hint)
 
 
 @pytest.mark.parametrize("word", ["bench1", "a/b/c/d", "../x/y", "nosuch/shel/bench1", "pico://lab.example/bench1"])
 def test_what_names_no_bench_is_said(lab: Path, word: str) -> None:
     keep(lab, Remotes({"lab": LAB}))
     with pytest.raises(PicoError) as caught:
-        chosen(lab, word)
+        meant(lab, word=word)
     assert caught.value.diagnostics[0].hint
 
 
@@ -81,43 +88,46 @@ HERE = "http://127.0.0.1:1"
 
 def _paged(lab: Path) -> OwnPage:
     """Return the page of a lab, with its bench enrolled there."""
-    page = OwnPage(lab, HERE)
-    (lab / ".pico").mkdir(exist_ok=True)
-    (lab / ".pico/enrolment.json").write_text(json.dumps(asdict(Enrolment(HERE, "shel/bench1", "00"))))
+    page = OwnPage(bench_at(lab), HERE)
+    (lab / ".pico/benches/sim").mkdir(parents=True, exist_ok=True)
+    (lab / ".pico/benches/sim/enrolment.json").write_text(json.dumps(asdict(Enrolment(HERE, "shel/bench1", "00"))))
     page.mean("shel/bench1", "secret")
     return page
 
 
 def test_while_a_page_is_open_its_bench_is_meant_and_afterwards_the_one_before(lab: Path) -> None:
-    keep(lab, before := Remotes({"lab": LAB}, "lab/shel/bench1"))
+    keep(lab, before := Remotes({"lab": LAB}))
     page = _paged(lab)
-    found = chosen(lab)
-    assert found is not None and (found.remote.url, token_of(HERE)) == (HERE, "secret")
+    found = meant(lab)
+    assert isinstance(found, Far) and (found.remote.url, token_of(HERE)) == (HERE, "secret")
+    assert meant(lab, word="emulated") == bench_at(lab, "emulated"), "the page serves another one"
     with pytest.raises(PicoError, match="another `pico gui` has this bench") as caught:
-        OwnPage(lab, "http://127.0.0.1:2")
+        OwnPage(bench_at(lab), "http://127.0.0.1:2")
     assert caught.value.exit_code == ExitCode.LOCKED
     page.end()
-    assert (known(lab), token_of(HERE), read_enrolment(lab)) == (before, None, None)
+    assert (known(lab), token_of(HERE), read_enrolment(bench_at(lab))) == (before, None, None)
+    assert meant(lab) == bench_at(lab)
 
 
 def test_a_bench_that_is_chosen_while_a_page_is_open_stays_chosen(lab: Path) -> None:
     page = _paged(lab)
-    keep(lab, replace(added(known(lab), "lab", LAB), default="lab/shel/bench2"))
+    keep(lab, added(known(lab), "lab", LAB))
+    write_choice(lab, "lab/shel/bench2")
     page.end()
-    assert known(lab) == Remotes({"lab": LAB}, "lab/shel/bench2")
+    assert known(lab) == Remotes({"lab": LAB}) and meant(lab).name == "shel/bench2"
     page = _paged(lab)
     keep(lab, removed(known(lab), "gui"))
     page.end()
-    assert known(lab) == Remotes({"lab": LAB}, "lab/shel/bench2") and read_enrolment(lab) is None
+    assert known(lab) == Remotes({"lab": LAB}) and read_enrolment(bench_at(lab)) is None
 
 
 @pytest.mark.parametrize("word", [None, "local", HERE + "/shel/bench1"])
 def test_what_a_killed_page_left_is_put_back_by_who_asks_next(lab: Path, word: str | None) -> None:
-    keep(lab, before := Remotes({"lab": LAB}, "lab/shel/bench1"))
+    keep(lab, before := Remotes({"lab": LAB}))
     os.close(_paged(lab)._lock)  # as the kernel does
     assert '"gui"' in (lab / ".git/pico/remotes.json").read_text()
-    chosen(lab, word)
-    assert (known(lab), token_of(HERE), read_enrolment(lab)) == (before, None, None)
+    meant(lab, word=word)
+    assert (known(lab), token_of(HERE), read_enrolment(bench_at(lab))) == (before, None, None)
     os.close(_paged(lab)._lock)
     _paged(lab).end()
     assert known(lab) == before
@@ -162,7 +172,18 @@ def test_who_is_not_let_in_and_who_finds_nobody_is_told_what_to_do(
             Bench.open(lab)
         point(lab, url)
         with pytest.raises(PicoError, match="is a sim bench, and this is for a hardware one"):
-            Bench.open(lab, backend="hardware")
+            Bench.open(lab, bench="shel/bench1", backend="hardware")
     with pytest.raises(PicoError, match="does not answer: Connection refused"):
         Bench.open(lab)
-    assert json.loads((lab / ".git" / "pico" / "remotes.json").read_bytes())["default"] == "lab/shel/bench1"
+    assert "default" not in json.loads((lab / ".git" / "pico" / "remotes.json").read_bytes())
+
+
+def test_the_bench_that_an_earlier_version_meant_is_meant_until_a_worktree_chooses(lab: Path) -> None:
+    path = lab / ".git/pico/remotes.json"
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(json.dumps({"remotes": {"lab": {"url": LAB.url}}, "default": "lab/shel/bench1"}))
+    assert meant(lab).name == "shel/bench1"
+    keep(lab, added(known(lab), "other", Remote("http://127.0.0.1:1")))
+    assert meant(lab).name == "shel/bench1"
+    write_choice(lab, "sim")
+    assert meant(lab) == bench_at(lab)

@@ -6,6 +6,7 @@ import asyncio
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 
 from pico.backends.device import Began
 from pico.backends.sim.device import SimDevice
@@ -71,7 +72,7 @@ def sought(setup: Setup, root: Path, algorithm: str, faults: Faults = NONE) -> t
     """Seek the null of `p2` from 40 deg by an algorithm, with faults from then on."""
 
     async def do() -> tuple[Told, OperationResult]:
-        told = Told(SimDevice(setup, root, clock=lambda: "2026-11-01T12:00:00Z"))
+        told = Told(SimDevice(setup, bench_at(root), clock=lambda: "2026-11-01T12:00:00Z"))
         await told.device.take(1, lambda _: None)
         for number, (name, tunable, to) in enumerate(
             [("laser", "emission", True), ("laser", "shutter", "open"), ("p2", "angle", 40.0)]
@@ -81,13 +82,13 @@ def sought(setup: Setup, root: Path, algorithm: str, faults: Faults = NONE) -> t
             )
             assert (await told.device.execute(first, f"r0/s{number}/1", lambda _: None)).outcome == "done"
         await told.device.leave()
-        save_faults(root, faults)
+        save_faults(bench_at(root), faults)
         await told.device.take(2, lambda _: None)
         goals = setup.lab.goals or {}
         (operation,) = optimizing(
             setup, await told.device.observe(), [Turn(Sought("null", goals["null"], algorithm))], None
         )
-        doing = Aligning(setup, root, told, lambda: "", lambda _: None)  # type: ignore[arg-type]
+        doing = Aligning(setup, bench_at(root), told, lambda: "", lambda _: None)  # type: ignore[arg-type]
         result = await doing.execute(operation, "r1/op1/1", lambda _: None)
         await told.device.leave()
         return told, result

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 
 from pico.backends.sim.device import SimDevice
 from pico.backends.sim.faults import Faults, save_faults
@@ -62,7 +63,7 @@ def verified(
     """Measure the goal with p2 turned to an angle; return what the device was told, and what became of it."""
 
     async def do() -> tuple[Steps, OperationResult, Operation]:
-        device, steps = SimDevice(setup, root, clock=lambda: "2026-11-01T12:00:00Z"), Steps()
+        device, steps = SimDevice(setup, bench_at(root), clock=lambda: "2026-11-01T12:00:00Z"), Steps()
         await device.take(1, lambda _: None)
         begin = (("laser", "emission", True), ("laser", "shutter", "open"), ("p2", "angle", turned))
         for number, (name, tunable, to) in enumerate((*begin, ("iris", "opening", 8.0))):
@@ -70,7 +71,7 @@ def verified(
             first = Operation(id=f"s{number}", primitive="set", component=name, arguments=arguments, reason=ASKED)
             assert (await device.execute(first, f"r0/s{number}/1", lambda _: None)).outcome == "done"
         await device.leave()
-        save_faults(root, faults or Faults())
+        save_faults(bench_at(root), faults or Faults())
         await device.take(2, lambda _: None)
 
         class Told:
@@ -124,7 +125,7 @@ def test_a_reading_that_gets_lost_each_time_tells_nothing_and_all_is_set_back(be
 
 def test_what_nobody_could_set_back_or_measure_is_not_measured(bench: Setup, tmp_path: Path) -> None:
     async def seen() -> object:
-        device = SimDevice(bench, tmp_path, clock=lambda: "2026-11-01T12:00:00Z")
+        device = SimDevice(bench, bench_at(tmp_path), clock=lambda: "2026-11-01T12:00:00Z")
         await device.take(1, lambda _: None)
         found = await device.observe()
         await device.leave()

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from bench_at import bench_at
 from results import RunResult
 
 from pico.backends.sim.device import SimDevice
@@ -49,7 +50,7 @@ def sim(setup: Setup, root: Path, **options: Any) -> LocalEdge:
     """Return the simulated bench in folder `root`, at noon."""
     clock = options.pop("clock", lambda: NOON)
     given = {"fidelity": "kinematic", "clock": clock} | options
-    return LocalEdge(setup, root, lambda setup: SimDevice(setup, root, **given), clock=clock)
+    return LocalEdge(setup, bench_at(root), lambda setup: SimDevice(setup, bench_at(root), **given), clock=clock)
 
 
 async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:

@@ -18,6 +18,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from bench_at import bench_at
 from benches import run
 from crashing import PARTS, SETUP, SLOTS, TURNING, Chaos, CutJournal, Goal, Truth, Violation, _is_there, plan_for
 
@@ -128,7 +129,7 @@ class InstantDevice:
 
 def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
     """Return the edge of an instant device, with the journal that kills."""
-    edge = LocalEdge(SETUP, root, lambda _: InstantDevice(table))  # type: ignore[arg-type]
+    edge = LocalEdge(SETUP, bench_at(root), lambda _: InstantDevice(table))  # type: ignore[arg-type]
     edge._remembers._journal = journal
     return edge
 

@@ -6,6 +6,7 @@ import asyncio
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from benches import apply, execute, plan_to, shel, sim
 
 from pico.backends.sim.store import load_world
@@ -22,7 +23,7 @@ def reached(root: Path) -> bool:
 
 def moved_unrecorded(bench: LocalEdge, before: dict[str, object]) -> list[str]:
     begun = {r.component for r in bench.journal.records() if r.kind == "started"}
-    world, _ = load_world(SETUP, bench.root)
+    world, _ = load_world(SETUP, bench.place)
     return [n for n, body in world.components.items() if body.pose != before[n] and n not in begun]
 
 
@@ -30,7 +31,7 @@ def test_a_full_disk_ends_the_run_with_a_true_report_and_nothing_moves_unrecorde
     for pages in range(12, 26, 2):
         root = tmp_path / str(pages)
         bench = sim(SETUP, root)
-        before: dict[str, object] = {n: b.pose for n, b in load_world(SETUP, root)[0].components.items()}
+        before: dict[str, object] = {n: b.pose for n, b in load_world(SETUP, bench_at(root))[0].components.items()}
         bench.journal._db.execute(f"PRAGMA max_page_count={pages}")
         planned = asyncio.run(plan_to(bench, C3))
         try:
@@ -47,7 +48,7 @@ def test_a_full_disk_ends_the_run_with_a_true_report_and_nothing_moves_unrecorde
 
 
 def test_with_a_damaged_journal_looking_and_planning_go_on_and_nothing_moves(tmp_path: Path) -> None:
-    path = tmp_path / ".pico" / "journal.sqlite"
+    path = tmp_path / ".pico/benches/sim" / "journal.sqlite"
     path.parent.mkdir()
     path.write_bytes(b"this is no database " * 300)
     bench = sim(SETUP, tmp_path)
@@ -55,7 +56,7 @@ def test_with_a_damaged_journal_looking_and_planning_go_on_and_nothing_moves(tmp
     with pytest.raises(PicoError, match="damaged") as caught:
         asyncio.run(execute(bench, planned))
     assert f"mv {path}" in caught.value.diagnostics[0].hint
-    assert not (tmp_path / ".pico" / "sim" / "world.json").exists()
+    assert not (tmp_path / ".pico/benches/sim" / "world.json").exists()
     path.rename(path.with_suffix(".broken"))
     assert apply(sim(SETUP, tmp_path), C3)[1].outcome == "done"
 

@@ -35,7 +35,7 @@ def bench(tmp_path: Path) -> LocalEdge:
 
 
 def disturb(bench: LocalEdge, change: Callable[[World], World]) -> None:
-    change_world(bench.setup, bench.root, "test", change)
+    change_world(bench.setup, bench.place.root, "test", change)
 
 
 def replanned(bench: LocalEdge, wanted: LabState, change: Callable[[Plan], Plan]) -> Plan:
@@ -45,7 +45,7 @@ def replanned(bench: LocalEdge, wanted: LabState, change: Callable[[Plan], Plan]
 def refusal(bench: LocalEdge, planned: Plan) -> PicoError:
     with pytest.raises(PicoError) as caught:
         asyncio.run(execute(bench, planned))
-    assert not (bench.root / ".pico" / "sim" / "world.json").exists() or not bench.journal.records()
+    assert not (bench.place.root / ".pico/benches/sim" / "world.json").exists() or not bench.journal.records()
     return caught.value
 
 

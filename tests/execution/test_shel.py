@@ -56,7 +56,7 @@ def test_every_state_is_reached_from_the_one_before_and_predicted_times_hold(tmp
             assert pose is not None
             assert slot_at(setup, pose) == slot if slot else pose.distance(goal) < 1e-9, (name, part)
         assert asyncio.run(plan_to(backend, states[name])).operations == ()
-    assert {r.outcome for r in Journal(tmp_path / ".pico" / "journal.sqlite").runs()} == {"done"}
+    assert {r.outcome for r in Journal(tmp_path / ".pico/benches/sim" / "journal.sqlite").runs()} == {"done"}
 
 
 def test_the_same_seed_gives_the_same_events_journal_and_table(tmp_path: Path) -> None:
@@ -66,7 +66,7 @@ def test_the_same_seed_gives_the_same_events_journal_and_table(tmp_path: Path) -
         backend = sim(setup, folder)
         _, _, events = apply(backend, states["E2-3"], "r1")
         journal = [(r.key, r.kind, r.digest, r.at, r.data) for r in backend.journal.records()]
-        told.append((events, journal, (folder / ".pico" / "sim" / "world.json").read_bytes()))
+        told.append((events, journal, (folder / ".pico/benches/sim" / "world.json").read_bytes()))
     assert told[0] == told[1]
     assert sum(e.kind == "operation_progress" for e in told[0][0]) > 30
 

@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 
 from pico.edge.link import place
 from pico.edge.network.remotes import Remote, Remotes, keep, known
@@ -71,19 +72,19 @@ def test_a_killed_page_leaves_the_folder_in_order(tmp_path: Path) -> None:
     subprocess.run([*PICO, "init", "--example", "shel", lab], env=environment, check=True, capture_output=True)
     keep(lab, before := Remotes({"lab": Remote("https://lab.example")}))
     with opened(lab, environment) as page:
-        assert known(lab).default == "gui/shel/bench1"
+        assert known(lab).page == ("sim", "shel/bench1")
         page.process.send_signal(signal.SIGKILL)
         page.process.wait()
         assert "live (sim)" in said("status")
     assert known(lab) == before
     until = time.monotonic() + 60
-    while place.find(lab) is not None:
+    while place.find(bench_at(lab)) is not None:
         assert time.monotonic() < until, "the edge goes on without its coordinator"
         time.sleep(0.1)
     said("sim", "nudge", "hwp", "--dx", "1")  # the bench is its folder's own
     with opened(lab, environment):
         assert "live (sim)" in said("status")
-    assert known(lab) == before and not (lab / ".pico/enrolment.json").exists()
+    assert known(lab) == before and not (lab / ".pico/benches/sim/enrolment.json").exists()
 
 
 @pytest.mark.slow

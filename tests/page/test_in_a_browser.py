@@ -14,6 +14,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 
 import pytest
+from bench_at import bench_at
 
 from pico.edge.link import place
 
@@ -57,7 +58,7 @@ class Served:
         self.process.send_signal(signal.SIGKILL)
         self.process.wait()
         until = time.monotonic() + 60
-        while place.find(self.lab) is not None:
+        while place.find(bench_at(self.lab)) is not None:
             assert time.monotonic() < until, "the edge goes on without its coordinator"
             time.sleep(0.1)
 
@@ -74,7 +75,7 @@ def served(tmp_path: Path) -> Iterator[Served]:
         yield found
     finally:
         found.end()
-    assert not (found.lab / ".pico/enrolment.json").exists(), "the bench is its folder's own again"
+    assert not (found.lab / ".pico/benches/sim/enrolment.json").exists(), "the bench is its folder's own again"
 
 
 def begun(script: str, *words: str) -> subprocess.Popen[str]:

@@ -46,7 +46,7 @@ def test_what_passes_the_check_runs_without_a_mistake(bench: Bench, seed: int) -
 
 @pytest.mark.parametrize("mistake", MISTAKES)
 def test_a_mistake_is_told_at_its_line_and_nothing_moves(bench: Bench, mistake: str) -> None:
-    journal, before = bench.root / ".pico" / "journal.sqlite", bench.observe().components
+    journal, before = bench.root / ".pico/benches/sim" / "journal.sqlite", bench.observe().components
     known = journal.stat().st_size if journal.exists() else 0
     path = bench.root / "recipes" / "broken.yaml"
     path.write_text(Maker(random.Random(mistake).randrange(10_000), "broken").recipe(mistake))

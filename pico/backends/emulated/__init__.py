@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.device import Device
 
 
-def opened(setup: Setup, root: Path, fidelity: str, clock: Callable[[], str]) -> Device:
-    """Return the emulated bench of the lab in folder `root`; raises PicoError naming what of it has no driver. Nothing
+def opened(setup: Setup, place: BenchPlace, fidelity: str, clock: Callable[[], str]) -> Device:
+    """Return the emulated bench at `place`; raises PicoError naming what of it has no driver. Nothing
     is contacted yet."""
     from pico.backends.emulated.bench import brought_up
     from pico.backends.hardware.opening import bench
 
-    return bench(setup, root, "emulated", fidelity, clock, brought_up)
+    return bench(setup, place, fidelity, clock, brought_up)

@@ -93,7 +93,7 @@ class OfPart:
         """The picture, or the power [W], that the twin's instrument gives; None where it gives none."""
         found = measurer_of(self._world.setup, self._component, name)
         try:
-            table = Table(self._world.setup, self._world.root, self._world.world())
+            table = Table(self._world.setup, self._world.place, self._world.world())
             reading = found.read(table, self._component, name) if found else None
         except (Failed, PicoError):
             return None
@@ -171,7 +171,7 @@ class SharedEyes:
         from pico.vision.calibration import known_arms
 
         if self._posed is None:
-            setup, root = self._world.setup, self._world.root
+            setup, root = self._world.setup, self._world.place.root
             noisy = with_noise(setup, read_learned(root))
             self._posed = Posed(noisy, self._world.world(), known_arms(root), lit=False)
         return self._posed

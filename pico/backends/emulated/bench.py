@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
-from pathlib import Path
 
 from pico.backends.emulated.behind import OfArm, OfCamera, OfInput, OfPart, SharedEyes
 from pico.backends.emulated.world import EmulatedWorld
@@ -14,18 +13,19 @@ from pico.emulators.behind import Alone, Behind
 from pico.emulators.registry import EmulatedBench
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
+from pico.places.bench import BenchPlace
 
 PACE = "PICO_EMULATED_PACE"
 """The variable that says how many times faster than the wall's an emulated bench's time goes; 1 without it."""
 
 
 def brought_up(
-    setup: Setup, root: Path, entries: dict[str, DeviceEntry]
+    setup: Setup, place: BenchPlace, entries: dict[str, DeviceEntry]
 ) -> tuple[EmulatedWorld, EmulatedBench]:  # fmt: skip
     """Start an emulator for each link of a lab's devices, and return the world behind them with the running bench,
     whose `entries` lead to them. Raises PicoError for a device without emulator, and a world that can't be read."""
     pace = _pace()
-    world = EmulatedWorld(setup, root, pace)
+    world = EmulatedWorld(setup, place, pace)
     eyes = SharedEyes(world)
     eyes.open()
 

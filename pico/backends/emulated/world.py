@@ -1,5 +1,5 @@
 """The simulated world behind emulated devices: arms that stand where their controllers say, parts between fingers,
-axes, light. Kept as `.pico/emulated/world.json`, a table of its own beside the simulator's."""
+axes, light. Kept as `world.json` in the folder of the bench."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ import time
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 from pico.backends.hardware.settings import Settings
 from pico.backends.sim.store import load_world, save_world
@@ -22,6 +21,7 @@ from pico.model.setup import Setup
 from pico.motion.kinematics import tool_pose
 from pico.motion.reach import grasp_height
 from pico.motion.types import Joints
+from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
 from pico.twin.learned import read_learned
 from pico.vision.calibration import known_arms
@@ -38,18 +38,20 @@ KEPT = 0.05
 
 
 class EmulatedWorld:
-    """The world of the lab in `root`. Its clock goes on at `pace` times the wall's. Called from any thread."""
+    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's. Called from any thread."""
 
-    def __init__(self, setup: Setup, root: Path, pace: float = 1.0, wall: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self, setup: Setup, place: BenchPlace, pace: float = 1.0, wall: Callable[[], float] = time.monotonic
+    ) -> None:
         """Raises PicoError where its file can't be read."""
-        self.setup, self.root, self.pace = setup, root, pace
+        self.setup, self.place, self.pace = setup, place, pace
         self._wall, self._began = wall, wall()
-        self._world, self.diagnostics = load_world(setup, root, FOLDER)
+        self._world, self.diagnostics = load_world(setup, place)
         self._since = self._world.clock
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
-        self._devices = Settings(root, FOLDER, "devices.json")
+        self._devices = Settings(place, "devices.json")
         self._pulled: set[str] = set()
-        self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(root)), read_learned(root)
+        self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
 
@@ -75,7 +77,7 @@ class EmulatedWorld:
             if self._world == self._stored and not durable:
                 return
             self._stored = self._world
-            save_world(self.root, self.world(), FOLDER, durable=durable)
+            save_world(self.place, self.world(), durable=durable)
 
     # what devices do to it
 

@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.device import Device
 
 
-def opened(setup: Setup, root: Path, fidelity: str, clock: Callable[[], str]) -> Device:
-    """Return the bench of the lab in folder `root`, with its real arms, cameras and mounts; raises PicoError naming
+def opened(setup: Setup, place: BenchPlace, fidelity: str, clock: Callable[[], str]) -> Device:
+    """Return the bench at `place`, with its real arms, cameras and mounts; raises PicoError naming
     what of it has no driver. Nothing is contacted yet."""
     from pico.backends.hardware.opening import bench
 
-    return bench(setup, root, "hardware", fidelity, clock)
+    return bench(setup, place, fidelity, clock)

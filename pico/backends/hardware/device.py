@@ -6,7 +6,6 @@ import asyncio
 import time
 from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from pico.backends.by_sight import BySight
@@ -32,6 +31,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import MovePath
+from pico.places.bench import BenchPlace
 from pico.planning.checks.interlocks import LAMP
 from pico.planning.routines import plugged_in
 from pico.twin.arms import TwinArm
@@ -56,30 +56,30 @@ T = TypeVar("T")
 
 
 class HardwareDevice:
-    """The bench of the lab in folder `root`, reached by `links`. `clock` gives the wall time as ISO 8601, UTC; a
+    """The bench at `place`, reached by `links`. `clock` gives the wall time as ISO 8601, UTC; a
     `fidelity` it has only in name, for plans to be compared."""
 
     def __init__(
-        self, setup: Setup, root: Path, links: Links, fidelity: str, *, clock: Callable[[], str]
+        self, setup: Setup, place: BenchPlace, links: Links, fidelity: str, *, clock: Callable[[], str]
     ) -> None:  # fmt: skip
         self.fidelity = fidelity
-        self.setup, self.root, self.links, self._clock = setup, root, links, clock
-        self._motion, self._settings = DeferredMotion(setup), Settings(root, links.bench)
+        self.setup, self.place, self.links, self._clock = setup, place, links, clock
+        self._motion, self._settings = DeferredMotion(setup), Settings(place)
         self._session: HardwareSession | None = None
         self._placed: dict[str, LastSeen] = {}
-        self._shown = Shown(setup, root, links.bench)
+        self._shown = Shown(setup, place)
         self._before: tuple[tuple[Observation, str | None], list[Frame], Look] | None = None
         self._kinds = {n: said.kind for n, said in (setup.wiring.safety_inputs if setup.wiring else {}).items()}
 
     @property
     def bench(self) -> str:
         """`hardware`, or `emulated`."""
-        return self.links.bench
+        return self.place.name
 
     async def describe(self) -> Capabilities:
         """Return what the bench can do, as its wiring says; asks no device."""
         about = self.links.about()
-        readers = Readers(self.setup, self.root, about)
+        readers = Readers(self.setup, self.place.root, about)
         return Capabilities(
             name=self.bench, fidelity=self.fidelity, evidence=self.bench, lab_digest=self.setup.digest(),
             primitives=PRIMITIVES | plugged_in().keys(), robots=tuple(sorted(self.setup.lab.robots)),
@@ -95,7 +95,7 @@ class HardwareDevice:
         """Return the greatest speed of tools here while nobody has tried their stop [mm/s], None where somebody has."""
         basis = await self.basis()
         try:
-            report = read(self.root, self.bench)
+            report = read(self.place.root, self.bench)
         except PicoError:  # of one that can't be read nobody knows what was tried
             return NEAR
         return NEAR if slowly(report, self.bench, basis) else None
@@ -135,7 +135,7 @@ class HardwareDevice:
 
     async def _looked(self, bench: Instruments) -> Look:
         frames = [await self._frame(bench, name) for name in sorted(bench.cameras)]
-        known = await self._felt(bench, recall_hands(self.root, self.bench))
+        known = await self._felt(bench, recall_hands(self.place))
         found = await asyncio.to_thread(self._seen, frames, known)
         self._shown.looked(found.observation)
         return found
@@ -144,7 +144,7 @@ class HardwareDevice:
         """What frames show; those that are the same to the last pixel show the same."""
         from pico.backends.sight import BLIND, look
 
-        last, same = {**recall(self.root, self.bench), **self._placed}, calibration_digest(self.root)
+        last, same = {**recall(self.place), **self._placed}, calibration_digest(self.place.root)
         about = replace(known, time=0.0, observed_at=""), same
         if (
             self._before is not None
@@ -156,9 +156,9 @@ class HardwareDevice:
             return replace(
                 found, observation=replace(found.observation, time=known.time, observed_at=known.observed_at)
             )
-        found = look(self.setup, frames, read_calibration(self.root), known, last)
+        found = look(self.setup, frames, read_calibration(self.place.root), known, last)
         if not any(problem.code in BLIND for problem in found.observation.problems):
-            remember(self.root, noted(last, found.observation), self.bench)
+            remember(self.place, noted(last, found.observation))
             self._placed.clear()
             self._before = about, frames, found
         return found
@@ -206,7 +206,7 @@ class HardwareDevice:
 
     def arms(self) -> dict[str, TwinArm]:
         """Return the arms as calibration knows them."""
-        known = known_arms(self.root)
+        known = known_arms(self.place.root)
         return {name: TwinArm(robot, known=known.get(name, NOMINAL)) for name, robot in self.setup.lab.robots.items()
                 if robot.model == "xarm7"}  # fmt: skip
 
@@ -223,7 +223,7 @@ class HardwareDevice:
         """Return what is read now of a measurable, and keep nothing; raises PicoError."""
         from pico.backends.attempt import Failed
 
-        readers = Readers(self.setup, self.root, await self.links.instruments(), self.look)
+        readers = Readers(self.setup, self.place.root, await self.links.instruments(), self.look)
         try:
             return await readers.read(component, measurable)
         except Failed as exc:
@@ -231,8 +231,8 @@ class HardwareDevice:
 
     async def _measured(self, component: str, measurable: str, busy: list[str] | None) -> Measurement:
         bench = await self.links.instruments()
-        readers = Readers(self.setup, self.root, bench, self.look, self._clock())
-        seen = await self._felt(bench, recall_hands(self.root, self.bench))
+        readers = Readers(self.setup, self.place.root, bench, self.look, self._clock())
+        seen = await self._felt(bench, recall_hands(self.place))
         return await readers.measured(component, measurable, seen, busy)
 
     # moving
@@ -248,12 +248,12 @@ class HardwareDevice:
             return asyncio.run_coroutine_threadsafe(work, loop).result()
 
         known = BySight(
-            self.setup, self.root, lambda taken: wait(self._felt(bench, taken)), lambda: wait(self._looked(bench)),
-            lambda camera, region: wait(self._frame(bench, camera, region)), bench=self.bench,
+            self.setup, self.place, lambda taken: wait(self._felt(bench, taken)), lambda: wait(self._looked(bench)),
+            lambda camera, region: wait(self._frame(bench, camera, region)),
         )  # fmt: skip
         self._session = HardwareSession(
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
-            pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.root, bench).image,
+            pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.place.root, bench).image,
             keep=self._settings.put, untried=self.links.untried(), most=most,
             require=require,
         )  # fmt: skip
@@ -265,7 +265,7 @@ class HardwareDevice:
         self._shown.became(operation.component, result.after)
         if result.outcome == "done" and operation.kind.carries:
             self._placed[operation.component] = placed_at(self.setup, operation, result)
-            remember(self.root, {**recall(self.root, self.bench), **self._placed}, self.bench)
+            remember(self.place, {**recall(self.place), **self._placed})
         return result
 
     async def walk(self, path: MovePath, speed: float) -> None:

@@ -6,7 +6,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable
-from pathlib import Path
+from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 from pico.backends.hardware.instruments import Instruments, wired
@@ -15,6 +15,7 @@ from pico.backends.instruments import emulated
 from pico.drivers.registry import Buses, driver
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.emulators.registry import EmulatedBench
@@ -38,21 +39,21 @@ class Emulated(Protocol):
         ...
 
 
-BringUp = Callable[["Setup", Path, dict[str, DeviceEntry]], "tuple[Emulated, EmulatedBench]"]
+BringUp = Callable[["Setup", BenchPlace, dict[str, DeviceEntry]], "tuple[Emulated, EmulatedBench]"]
 """Starts emulators of all devices of a lab, and gives them with the world behind."""
-_open: dict[tuple[Path, str], Links] = {}
+_open: dict[BenchPlace, Links] = {}
 
 
 class Links:
-    """The links of the bench of the lab in `root`, by its name; with `bring_up` they lead to emulators in this
+    """The links of the bench at `place`; with `bring_up` they lead to emulators in this
     process, brought up when they are first needed."""
 
     def __init__(
-        self, setup: Setup, root: Path, bench: str, bring_up: BringUp | None = None, before: Links | None = None
+        self, setup: Setup, place: BenchPlace, bring_up: BringUp | None = None, before: Links | None = None
     ) -> None:  # fmt: skip
         """`before`: whose links these replace."""
         self._before, self._bring_up = before, bring_up
-        self.setup, self.root, self.bench = setup, root, bench
+        self.setup, self.place = setup, place
         self.world: Emulated | None = None
         self.emulators: EmulatedBench | None = None
         self._buses = Buses()
@@ -76,7 +77,7 @@ class Links:
     def about(self) -> Instruments:
         """Return the instruments of the lab's devices, none of them connected: what there is, without asking any."""
         if self._about is None:
-            self._about = wired(self.setup, self.entries, Buses(), Settings(self.root, self.bench))
+            self._about = wired(self.setup, self.entries, Buses(), Settings(self.place))
         return self._about
 
     def untried(self) -> frozenset[str]:
@@ -97,7 +98,7 @@ class Links:
             if self._instruments is None:
                 if self._before is not None:
                     await self._before.close()
-                found = wired(self.setup, self._reached(), self._buses, Settings(self.root, self.bench))
+                found = wired(self.setup, self._reached(), self._buses, Settings(self.place))
                 await found.connect()
                 self._instruments = found
             return self._instruments
@@ -111,13 +112,13 @@ class Links:
         if self._bring_up is None:
             return self.entries
         if self.emulators is None:
-            self.world, self.emulators = self._bring_up(self.setup, self.root, emulated(self.entries))
+            self.world, self.emulators = self._bring_up(self.setup, self.place, emulated(self.entries))
         return self.emulators.entries
 
     async def close(self) -> None:
         """Let go of every link, and end what emulates."""
-        if _open.get((self.root, self.bench)) is self:
-            del _open[self.root, self.bench]
+        if _open.get(self.place) is self:
+            del _open[self.place]
         found, self._instruments = self._instruments, None
         if found is not None:
             await asyncio.gather(*(one.close() for one in found.all.values()), return_exceptions=True)
@@ -129,11 +130,11 @@ class Links:
         self.emulators = self.world = None
 
 
-def links(setup: Setup, root: Path, bench: str, bring_up: BringUp | None = None) -> Links:
+def links(setup: Setup, place: BenchPlace, bring_up: BringUp | None = None) -> Links:
     """Return the links of a bench: those that are open in this process, where they lead to the same devices."""
-    key = (root.resolve(), bench)
+    key = replace(place, root=place.root.resolve())
     known = _open.get(key)
     if known is not None and known.setup.wiring == setup.wiring and known.setup.at_speed(1.0) == setup.at_speed(1.0):
         return known
-    _open[key] = Links(setup, root.resolve(), bench, bring_up, known)
+    _open[key] = Links(setup, key, bring_up, known)
     return _open[key]

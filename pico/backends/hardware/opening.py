@@ -11,17 +11,18 @@ from pico.backends.hardware.instruments import require_whole
 from pico.backends.hardware.links import BringUp, links
 from pico.drivers.registry import driver
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 
 def bench(
-    setup: Setup, root: Path, name: str, fidelity: str, clock: Callable[[], str], bring_up: BringUp | None = None
+    setup: Setup, place: BenchPlace, fidelity: str, clock: Callable[[], str], bring_up: BringUp | None = None
 ) -> HardwareDevice:  # fmt: skip
-    """Return the `hardware` or the `emulated` bench of the lab in `root`; raises PicoError naming what it lacks.
+    """Return the `hardware` or the `emulated` bench at `place`; raises PicoError naming what it lacks.
     `bring_up`: of the one that is emulated."""
-    setup = _with_wiring(setup, root)
+    setup = _with_wiring(setup, place.root)
     entries = setup.wiring.devices if setup.wiring else {}
     require_whole(setup, entries, {device: driver(entry.driver).kind for device, entry in entries.items()})
-    return HardwareDevice(setup, root, links(setup, root, name, bring_up), fidelity, clock=clock)
+    return HardwareDevice(setup, place, links(setup, place, bring_up), fidelity, clock=clock)
 
 
 def _with_wiring(setup: Setup, root: Path) -> Setup:

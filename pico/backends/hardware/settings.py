@@ -5,21 +5,20 @@ from __future__ import annotations
 
 import json
 import threading
-from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.disk import write_whole
 from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 
 class Settings:
-    """Values by address, as they were told last; kept in the folder of the `bench` of the lab in `root`. Links tell and
+    """Values by address, as they were told last; kept in the folder of the bench. Links tell and
     ask of it, each in a thread of its own."""
 
-    def __init__(self, root: Path, bench: str, name: str = "settings.json") -> None:
-        self._path = bench_folder(root) / bench / name
+    def __init__(self, place: BenchPlace, name: str = "settings.json") -> None:
+        self._path = place.folder / name
         self._lock = threading.Lock()
 
     def get(self, address: str, default: Value) -> Value:

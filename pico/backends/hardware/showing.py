@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Mapping
 from dataclasses import replace
-from pathlib import Path
 
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.last_seen import recall, recall_hands
@@ -14,17 +13,18 @@ from pico.model.observation import Observation, ObservedComponent, ObservedRobot
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of, tool_pose
 from pico.motion.types import Joints
+from pico.places.bench import BenchPlace
 from pico.twin.arms import TwinArm
 from pico.twin.moment import Moment, moment_of
 from pico.twin.placement import Placement, upright
 
 
 class Shown:
-    """What is known of the bench of the lab in `root`, called `bench`: what was seen when somebody looked last, else
+    """What is known of the bench at `place`: what was seen when somebody looked last, else
     where parts were last, and what became of operations since."""
 
-    def __init__(self, setup: Setup, root: Path, bench: str) -> None:
-        self._setup, self._root, self._bench = setup, root, bench
+    def __init__(self, setup: Setup, place: BenchPlace) -> None:
+        self._setup, self._place = setup, place
         self._seen: Observation | None = None
 
     def looked(self, seen: Observation) -> None:
@@ -55,7 +55,7 @@ class Shown:
         if not holding:
             return found
         places, components = dict(found.places), dict(found.seen.components)
-        hands = recall_hands(self._root, self._bench)
+        hands = recall_hands(self._place)
         for name, part in holding.items():
             taken, grasp = hands.get(name), self._setup.type_of(part).geometry.grasp
             if taken is None or taken.component != part or grasp is None:
@@ -76,10 +76,10 @@ class Shown:
         }
         last = {
             name: ObservedComponent(pose=was.pose, uncertainty=was.uncertainty, how=was.kept)
-            for name, was in recall(self._root, self._bench).items()
+            for name, was in recall(self._place).items()
             if name in self._setup.lab.inventory
         }
-        return Observation(backend=self._bench, components={**fixed, **last})
+        return Observation(backend=self._place.name, components={**fixed, **last})
 
 
 def _in_hand(place: Placement, height: float) -> Placement:

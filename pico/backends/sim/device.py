@@ -6,7 +6,6 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.device import Began, Capabilities
@@ -24,6 +23,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Motion
+from pico.places.bench import BenchPlace
 from pico.planning.routines import plugged_in as routines
 from pico.teleop.frames import STEPS
 
@@ -51,7 +51,7 @@ def _capabilities(setup: Setup, fidelity: str) -> Capabilities:
 
 
 class SimDevice:
-    """The simulated table of the lab in folder `root`.
+    """The simulated table of the bench at `place`.
 
     `motion` finds the paths (that of the lab's arms where None); `clock` gives the wall time as ISO 8601, UTC. It reads
     the table as it is stored until it is taken, and then is the only one that changes it.
@@ -60,13 +60,13 @@ class SimDevice:
     def __init__(
         self,
         setup: Setup,
-        root: Path,
+        place: BenchPlace,
         fidelity: str = "kinematic",
         *,
         clock: Callable[[], str],
         motion: Motion | None = None,
     ) -> None:
-        self.setup, self.root, self.fidelity = setup, root, fidelity
+        self.setup, self.place, self.fidelity = setup, place, fidelity
         self.diagnostics: tuple[Diagnostic, ...] = ()
         self._clock, self._motion = clock, motion or DeferredMotion(setup)
         self.pace = Pace()
@@ -106,7 +106,7 @@ class SimDevice:
         from pico.backends.last_seen import recall_hands
         from pico.backends.sim.senses import sensed
 
-        felt = sensed(self.setup, self._world(), recall_hands(self.root), seen.backend, seen.observed_at)
+        felt = sensed(self.setup, self._world(), recall_hands(self.place), seen.backend, seen.observed_at)
         full = {name for name, robot in felt.robots.items() if robot.holding and not seen.robots[name].holding}
         held = {n: felt.components[n] for n in (felt.robots[name].holding for name in full) if n}
         robots = {name: felt.robots[name] if name in full else robot for name, robot in seen.robots.items()}
@@ -130,16 +130,16 @@ class SimDevice:
         """Return the table as it is stored, read again only once its file is another one."""
         now: tuple[int, ...] = ()
         with suppress(OSError):
-            found = world_path(self.root).stat()
+            found = world_path(self.place).stat()
             now = (found.st_ino, found.st_mtime_ns, found.st_size)
         if self._stored is None or self._stored[0] != now:
-            self._stored = now, load_world(self.setup, self.root)[0]
+            self._stored = now, load_world(self.setup, self.place)[0]
         return self._stored[1]
 
     def _world(self) -> World:
         if self._session is not None:
             return self._session.world()
-        world, self.diagnostics = load_world(self.setup, self.root)
+        world, self.diagnostics = load_world(self.setup, self.place)
         return world
 
     def _by_sight(self) -> Look:
@@ -149,12 +149,12 @@ class SimDevice:
         from pico.backends.sim.sight import see
         from pico.vision.calibration import calibration_digest
 
-        world, calibration = self._world(), calibration_digest(self.root)
+        world, calibration = self._world(), calibration_digest(self.place.root)
         if self._looked is None or self._looked[0] != (world, calibration):
-            last = {**recall(self.root), **self._placed}
-            found = see(self.setup, self.root, world, "sim", self._clock(), last)
+            last = {**recall(self.place), **self._placed}
+            found = see(self.setup, self.place, world, "sim", self._clock(), last)
             if not any(problem.code in BLIND for problem in found.observation.problems):
-                remember(self.root, noted(last, found.observation))
+                remember(self.place, noted(last, found.observation))
                 self._placed.clear()
             self._looked = (world, calibration), found
         return self._looked[1]
@@ -167,7 +167,7 @@ class SimDevice:
 
         world, now = self._world(), self._clock()
         try:  # in a thread of its own: who steers is heard meanwhile
-            return await asyncio.to_thread(measured, self.setup, self.root, world, component, measurable, None, now)
+            return await asyncio.to_thread(measured, self.setup, self.place, world, component, measurable, None, now)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
 
@@ -179,7 +179,7 @@ class SimDevice:
 
         try:
             measurer = require_simulated(self.setup, component, measurable)[1]
-            table = Table(self.setup, self.root, self._world())
+            table = Table(self.setup, self.place, self._world())
             return await asyncio.to_thread(measurer.read, table, component, measurable)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
@@ -192,10 +192,10 @@ class SimDevice:
         from pico.backends.sim.faults import faults_of
         from pico.backends.sim.session import WorldSession
 
-        world, self.diagnostics = load_world(self.setup, self.root)
+        world, self.diagnostics = load_world(self.setup, self.place)
         self._session = WorldSession(
-            self.setup, self.root, world, fidelity=self.fidelity, token=token, motion=self._motion, tell=tell,
-            clock=self._clock, faults=faults_of(self.setup, self.root),
+            self.setup, self.place, world, fidelity=self.fidelity, token=token, motion=self._motion, tell=tell,
+            clock=self._clock, faults=faults_of(self.setup, self.place),
             look=self._by_sight if self.setup.lab.sim.runs_by_sight(self.fidelity) else None, pace=self.pace,
         )  # fmt: skip
         if self._look is not None:
@@ -215,7 +215,7 @@ class SimDevice:
 
         self._placed[operation.component] = placed_at(self.setup, operation, result)
         if self.setup.lab.sim.runs_by_sight(self.fidelity):
-            remember(self.root, {**recall(self.root), **self._placed})
+            remember(self.place, {**recall(self.place), **self._placed})
 
     async def halt(self) -> None:
         """Wait until what is under way has reached a safe end."""
@@ -238,10 +238,10 @@ class SimDevice:
 
     def kept(self) -> bool:
         """Return whether the table is stored."""
-        return world_path(self.root).exists()
+        return world_path(self.place).exists()
 
     def world(self, held: Held, require_kept: Callable[[], None]) -> SimulatedTable:
         """Return the simulated table, to be changed as a hand would."""
         from pico.backends.sim.table import SimulatedTable
 
-        return SimulatedTable(self.setup, self.root, held, require_kept)
+        return SimulatedTable(self.setup, self.place, held, require_kept)

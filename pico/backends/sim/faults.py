@@ -16,7 +16,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from pico.attachment import bench_folder, require_attached
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.disk import write_whole
 from pico.geometry.shape import placed, separation
@@ -25,6 +24,8 @@ from pico.model.pose import Pose
 from pico.model.primitive import OWN
 from pico.model.record import as_json, record
 from pico.model.setup import Setup
+from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace
 
 _MOVES = tuple(p.name for p in OWN.values() if p.carries)
 _SETS = ("set", "home")
@@ -101,27 +102,27 @@ def _rate(name: str, value: str) -> float:
     return rate
 
 
-def faults_of(setup: Setup, root: Path) -> Faults:
-    """Return the faults of the simulated bench in `root`: those that `pico sim faults` asked for, else the lab's."""
+def faults_of(setup: Setup, place: BenchPlace) -> Faults:
+    """Return the faults of a simulated bench: those that `pico sim faults` asked for, else the lab's."""
     try:
-        data = json.loads(_path(root).read_text(encoding="utf-8"))
+        data = json.loads(_path(place).read_text(encoding="utf-8"))
         return Faults(rates={str(k): float(v) for k, v in data["rates"].items()}, seed=int(data["seed"]))
     except FileNotFoundError:
         return Faults(rates={str(k): v for k, v in setup.lab.sim.faults.items()}, seed=setup.lab.sim.seed)
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
         hint = "`pico sim faults off` writes it anew"
-        raise PicoError(error("faults-file", f"{_path(root)} cannot be read: {exc}", hint=hint)) from exc
+        raise PicoError(error("faults-file", f"{_path(place)} cannot be read: {exc}", hint=hint)) from exc
 
 
-def save_faults(root: Path, faults: Faults) -> None:
-    """Let these faults happen on the simulated bench in `root` from now on; raises PicoError."""
-    require_attached(root)
-    what = f"the faults cannot be stored in {_path(root)}"
-    write_whole(_path(root), json.dumps(as_json(faults)).encode(), what=what, code="faults-file", folders=True)
+def save_faults(place: BenchPlace, faults: Faults) -> None:
+    """Let these faults happen on a simulated bench from now on; raises PicoError."""
+    require_attached(place)
+    what = f"the faults cannot be stored in {_path(place)}"
+    write_whole(_path(place), json.dumps(as_json(faults)).encode(), what=what, code="faults-file", folders=True)
 
 
-def _path(root: Path) -> Path:
-    return bench_folder(root) / "sim" / "faults.json"
+def _path(place: BenchPlace) -> Path:
+    return place.folder / "faults.json"
 
 
 def beside(pose: Pose, draw: random.Random) -> Pose:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import measurement
@@ -14,6 +13,7 @@ from pico.diagnostics import PicoError
 from pico.model.catalog import Measurable
 from pico.model.measurement import Measurement
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 
 def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurable, Measurer]:
@@ -29,7 +29,7 @@ def require_simulated(setup: Setup, component: str, name: str) -> tuple[Measurab
 
 
 def measured(
-    setup: Setup, root: Path, world: World, component: str, name: str, busy: Sequence[str] | None, at: str,
+    setup: Setup, place: BenchPlace, world: World, component: str, name: str, busy: Sequence[str] | None, at: str,
     light: World | None = None,
 ) -> Measurement:  # fmt: skip
     """Return what is measured of `component` on the table as it is; an array goes to the content store.
@@ -39,6 +39,6 @@ def measured(
     PicoError where an array can't be kept.
     """
     known, measurer = require_simulated(setup, component, name)
-    reading = measurer.read(Table(setup, root, light or world), component, name)
+    reading = measurer.read(Table(setup, place, light or world), component, name)
     seen = observe(world, "sim", "")
-    return measurement(setup, root, seen, known, reading, component, name, busy, at)
+    return measurement(setup, place.root, seen, known, reading, component, name, busy, at)

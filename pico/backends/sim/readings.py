@@ -13,17 +13,23 @@ from typing import Protocol, cast
 from pico.backends.measured import Reading
 from pico.backends.sim.world import World
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 
 FOLDER = "pico.backends.sim.measurables"
 
 
 @dataclass(frozen=True)
 class Table:
-    """The simulated table of the lab in folder `root` at the moment of a measurement."""
+    """The simulated table of the bench at `place` at the moment of a measurement."""
 
     setup: Setup
-    root: Path
+    place: BenchPlace
     world: World
+
+    @property
+    def root(self) -> Path:
+        """The folder of the lab."""
+        return self.place.root
 
 
 class Measurer(Protocol):

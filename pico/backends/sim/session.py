@@ -46,6 +46,7 @@ from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.model.trace.learned import Learned, work
 from pico.motion.types import Blocked, Joints, Motion, MovePath, Stage
+from pico.places.bench import BenchPlace
 from pico.planning.routines import Routine, carried
 from pico.teleop.frames import STEPS
 from pico.twin.learned import read_learned, with_noise
@@ -76,7 +77,7 @@ class WorldSession:
     def __init__(
         self,
         setup: Setup,
-        root: Path,
+        place: BenchPlace,
         world: World,
         *,
         fidelity: str,
@@ -89,11 +90,11 @@ class WorldSession:
         pace: Pace | None = None,
     ) -> None:
         """`pace`: with which time passes while a person steers."""
-        self._setup, self._root, self._world = setup, root, world
+        self._setup, self._place, self._world = setup, place, world
         self._pace = pace or Pace()
         self._motion, self._tell_all, self._clock = motion, tell, clock
-        self._mover, self._began_at = new_mover(setup, root, world, fidelity), world.clock
-        self._learned = read_learned(root) or Learned()
+        self._mover, self._began_at = new_mover(setup, place.root, world, fidelity), world.clock
+        self._learned = read_learned(place.root) or Learned()
         self._time: Timeline[OperationResult] = Timeline(world.clock, self._mover.advance)
         self._told, self._halting, self._kept = 0, False, 0.0
         self._known: Known = self._by_sight(look) if look else Exactly(self.world)
@@ -107,7 +108,7 @@ class WorldSession:
         def take(camera: str, region: Region) -> Frame:
             return self._mover.eyes(self.world()).frame(camera, region)
 
-        return BySight(self._setup, self._root, felt, look, take, self._mover.left)
+        return BySight(self._setup, self._place, felt, look, take, self._mover.left)
 
     def watch(self, look: Callable[[Snapshot], None]) -> None:
         """Let `look` see the table now, and at least every WATCHED simulated seconds while something moves."""
@@ -189,7 +190,7 @@ class WorldSession:
     def store(self) -> None:
         """Store the world durably."""
         self._world = self.world()
-        save_world(self._root, self._world)
+        save_world(self._place, self._world)
 
     def act(self, operation: Operation, key: str) -> InProgress:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
@@ -209,7 +210,7 @@ class WorldSession:
         busy = sorted(other.split("/")[1] for other in self._time.under_way if other != key)
         light = self._mishaps.shone(self.world(), self._mishaps.of(operation, key))
         found = measured(
-            self._setup, self._root, self.world(), operation.component, name, busy, self._clock(), light=light
+            self._setup, self._place, self.world(), operation.component, name, busy, self._clock(), light=light
         )
         return {"measurement": as_json(found)}
 
@@ -223,7 +224,7 @@ class WorldSession:
             exposure = live if isinstance(live, int | float) else limits[0]
             yield SETTLING + exposure * 1e-3
             light = self._mishaps.shone(self.world(), fault if not frames else None)
-            found = measurer.read(Table(self._setup, self._root, light), name, "image")
+            found = measurer.read(Table(self._setup, self._place, light), name, "image")
             assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
             frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
@@ -512,7 +513,7 @@ class WorldSession:
         """Store the world as it is in the middle of a motion: what a killed process leaves behind is then true."""
         self._kept = time.monotonic()
         with suppress(PicoError):  # the end of the operation will say so
-            save_world(self._root, self.world(), durable=False)
+            save_world(self._place, self.world(), durable=False)
 
     def _progress(self, path: MovePath, stage: Stage) -> dict[str, Any]:
         seen = self._known.seen()

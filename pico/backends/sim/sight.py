@@ -15,6 +15,7 @@ from pico.backends.sim.senses import let_go, sensed
 from pico.backends.sim.world import World, observe
 from pico.model.catalog import Geometry
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of, motors
 from pico.twin.learned import read_learned, with_noise
 from pico.twin.placement import Placement
@@ -27,7 +28,9 @@ if TYPE_CHECKING:
     from pico.vision.frame import Frame
 
 
-def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, last: Mapping[str, LastSeen]) -> Look:
+def see(
+    setup: Setup, place: BenchPlace, world: World, backend: str, observed_at: str, last: Mapping[str, LastSeen]
+) -> Look:  # fmt: skip
     """Return what the cameras see of `world`; raises PicoError where the lab has none over its table.
 
     `last`: where parts were seen or put down before. The same world gives the same pictures.
@@ -35,9 +38,9 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
     if not names:
         raise no_cameras(setup)
-    eyes = Posed(with_noise(setup, read_learned(root)), world, known_arms(root)).eyes(world)
+    eyes = Posed(with_noise(setup, read_learned(place.root)), world, known_arms(place.root)).eyes(world)
     pictures = [exposed(partial(eyes.frame, name)) for name in names]
-    taken = recall_hands(root)
+    taken = recall_hands(place)
     if setup.lab.sim.observe == "sight":
         told = sensed(setup, world, taken, backend, observed_at)
     else:
@@ -46,7 +49,7 @@ def see(setup: Setup, root: Path, world: World, backend: str, observed_at: str, 
         name: LastSeen(pose=pose, uncertainty=repeated(setup, name), time=world.clock, placed=True)
         for name, pose in let_go(setup, told, taken).items()
     }
-    return look(setup, pictures, read_calibration(root), told, {**last, **placed})
+    return look(setup, pictures, read_calibration(place.root), told, {**last, **placed})
 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:

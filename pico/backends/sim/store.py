@@ -1,4 +1,4 @@
-"""The simulated table on disk: `.pico/sim/world.json` beside the lab, replaced as a whole, so that it is never half."""
+"""The simulated table on disk: `world.json` in the folder of its bench, replaced as a whole."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, WorldBody, new_world
 from pico.cameras.errors import CameraShift
@@ -23,20 +22,21 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.optics.unseen import Unseen
+from pico.places.bench import BenchPlace
 
 
-def world_path(root: Path, bench: str = "sim") -> Path:
-    """Return where the world of the lab in folder `root` is kept; `bench`: whose it is."""
-    return bench_folder(root) / bench / "world.json"
+def world_path(place: BenchPlace) -> Path:
+    """Return where the world of a bench is kept."""
+    return place.folder / "world.json"
 
 
-def load_world(setup: Setup, root: Path, bench: str = "sim") -> tuple[World, tuple[Diagnostic, ...]]:
-    """Return the simulated table of the lab in `root` and what had to change because the lab did.
+def load_world(setup: Setup, place: BenchPlace) -> tuple[World, tuple[Diagnostic, ...]]:
+    """Return the simulated table of a bench and what had to change because the lab did.
 
-    A lab without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
+    A bench without one gets a new world; nothing is written, and what a killed writer left is cleared. Raises PicoError
     where the file can't be read.
     """
-    path = world_path(root, bench)
+    path = world_path(place)
     with suppress(OSError):
         sweep(path.parent)
     try:
@@ -53,12 +53,12 @@ def load_world(setup: Setup, root: Path, bench: str = "sim") -> tuple[World, tup
     return reconcile(setup, world)
 
 
-def save_world(root: Path, world: World, bench: str = "sim", *, durable: bool = True) -> None:
+def save_world(place: BenchPlace, world: World, *, durable: bool = True) -> None:
     """Store the world: a reader sees the old one or the new one. Raises PicoError where it can't.
 
     `durable`: on the disk when this returns, so that it outlives a power failure and not only this process.
     """
-    path = world_path(root, bench)
+    path = world_path(place)
     what = f"the simulated table cannot be stored in {path}"
     data = json.dumps(as_json(world), separators=(",", ":"), sort_keys=True).encode()
     write_whole(path, data, what=what, code="world-file", folders=True, durable=durable)

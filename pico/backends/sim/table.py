@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from pico.backends.sim.bodies import body_placement
@@ -20,6 +19,7 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.request import require_component
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
 from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets
@@ -27,11 +27,11 @@ from pico.vision.camera import CameraModel
 
 
 class SimulatedTable:
-    """The simulated table of the lab in folder `root`, see `pico.backends.world.World`. `held`, `require_kept`: see
+    """The simulated table of the bench at `place`, see `pico.backends.world.World`. `held`, `require_kept`: see
     `pico.backends.device.Device.world`."""
 
-    def __init__(self, setup: Setup, root: Path, held: Held, require_kept: Callable[[], None]) -> None:
-        self._setup, self._root, self._held, self._require_kept = setup, root, held, require_kept
+    def __init__(self, setup: Setup, place: BenchPlace, held: Held, require_kept: Callable[[], None]) -> None:
+        self._setup, self._place, self._held, self._require_kept = setup, place, held, require_kept
 
     def placements(self) -> dict[str, Placement]:
         """Return where the components are in space, also those in a gripper or on their side; missing ones are left
@@ -44,7 +44,7 @@ class SimulatedTable:
         """Put every part home, as in a new world, whatever the world's file holds; `seed`: instead of the Lab's."""
         with self._held("sim reset"):
             world = new_world(self._setup)
-            save_world(self._root, world if seed is None else replace(world, seed=seed))
+            save_world(self._place, world if seed is None else replace(world, seed=seed))
 
     def put(self, seen: Observation) -> None:
         """Let every part stand and read as in `seen`, in a new world."""
@@ -52,7 +52,7 @@ class SimulatedTable:
         for name, part in seen.components.items():
             world = world.with_body(name, pose=part.pose, values=part.values)
         with self._held("sim put"):
-            save_world(self._root, world)
+            save_world(self._place, world)
 
     def nudge(self, name: str, *, dx: float = 0.0, dy: float = 0.0, dyaw: float = 0.0) -> Pose:
         """Push a component by (dx, dy) [mm], turn it by dyaw [deg], and return where it then stands."""
@@ -119,16 +119,16 @@ class SimulatedTable:
         """
         if words:
             wanted = parse(words, self._setup.lab.sim.seed)
-            save_faults(self._root, wanted)
+            save_faults(self._place, wanted)
             if not any(wanted.rates.values()) and self._world().stuck:
                 self._change("sim faults", lambda world: replace(world, stuck=()))
-        found: dict[str, Any] = as_json(faults_of(self._setup, self._root))
+        found: dict[str, Any] = as_json(faults_of(self._setup, self._place))
         return found
 
     def _world(self) -> World:
         self._require_kept()
-        return load_world(self._setup, self._root)[0]
+        return load_world(self._setup, self._place)[0]
 
     def _change(self, who: str, change: Callable[[World], World]) -> None:
         with self._held(who):
-            save_world(self._root, change(self._world()))
+            save_world(self._place, change(self._world()))

@@ -20,6 +20,7 @@ from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.model.trace.report import RunReport
 from pico.motion.deferred import DeferredMotion
+from pico.places.bench import BenchPlace
 from pico.planning import PlanGoal, Planner
 from pico.planning.checks.target import Source
 
@@ -104,7 +105,7 @@ def _bench(setup: Setup, fidelity: str = "kinematic", lab: Path | None = None) -
         folder = Path(name)
         if lab is not None and (lab / CALIBRATION).is_file() and not (lab / CALIBRATION).is_symlink():
             shutil.copy(lab / CALIBRATION, folder)
-        edge = embedded(simulated(setup), folder, SIMULATOR, fidelity)
+        edge = embedded(simulated(setup), BenchPlace(folder, SIMULATOR), fidelity)
         try:
             yield edge, thread
         finally:

@@ -21,7 +21,7 @@ FIRST_HAND = ("", "stereo", "known height")
 def calibration(at: AtBench) -> Found:
     """There is a calibration, of every camera over the table and every arm, not too old, and what cameras see of the
     datums now agrees with it. Raises PicoError."""
-    setup, root = at.edge.setup, at.edge.root
+    setup, root = at.edge.setup, at.edge.place.root
     known = read_calibration(root)
     if known is None:
         text = "the lab has no calibration of its cameras and arms"

@@ -75,7 +75,7 @@ class Walk:
 
     def standing(self) -> Standing:
         """Return how it stands; asks the devices who they are, and moves nothing."""
-        report = read(self.edge.root, self.name)
+        report = read(self.edge.place.root, self.name)
         try:
             why = why_not(report, self.name, self._basis(), self.edge.now())
         except PicoError as exc:
@@ -88,7 +88,7 @@ class Walk:
 
     def todo(self) -> tuple[Step, ...]:
         """Return the steps that are still to be done, or again."""
-        report, basis = read(self.edge.root, self.name), self._basis()
+        report, basis = read(self.edge.place.root, self.name), self._basis()
         if report is None or report.bench != self.name or changed(report, basis):
             return STEPS
         now = self.edge.now()
@@ -111,7 +111,7 @@ class Walk:
 
     def _begun(self, days: float | None) -> Commissioning:
         """Return the report to go on with."""
-        report, basis = read(self.edge.root, self.name), self._basis()
+        report, basis = read(self.edge.place.root, self.name), self._basis()
         if report is None or report.bench != self.name or report.lab != self.edge.setup.lab.name:
             return Commissioning(lab=self.edge.setup.lab.name, bench=self.name, basis=basis, days=days or DAYS)
         if other := changed(report, basis):
@@ -129,7 +129,7 @@ class Walk:
             by = person_of(self.bench) or "nobody named"
             made = StepResult(outcome=outcome, at=self.edge.now(), by=by, told=found.told, data=found.data)
             kept[0] = replace(report, steps={**report.steps, step: made})
-            write(self.edge.root, kept[0])
+            write(self.edge.place.root, kept[0])
             return made
 
         keep(Found(told="begun", data=before))
@@ -141,7 +141,7 @@ class Walk:
             found = DOING[step](at)
         except PicoError as exc:
             if isinstance(exc, Declined) or exc.exit_code == ExitCode.LOCKED or exc.diagnostics[0].code == "usage":
-                write(self.edge.root, report)  # it says nothing of the bench
+                write(self.edge.place.root, report)  # it says nothing of the bench
                 raise
             last = kept[0].steps[step].data
             made = keep(Found(told=exc.diagnostics[0].summary, data=last), "failed")

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.attachment import bench_folder
 from pico.diagnosis.quantities import Got, Quantity
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
+from pico.edge.network.remotes import Place
 from pico.model.diff import value_distance
 from pico.model.pose import Pose, angle_between
 from pico.model.record import Format, as_json
@@ -39,12 +39,12 @@ class Reference:
     got: tuple[Got | None, ...]
 
 
-def references_in(root: Path) -> tuple[Reference, ...]:
-    """Return the references that the bench of the lab in `root` has, the oldest first; raises PicoError where they
+def references_in(place: Place) -> tuple[Reference, ...]:
+    """Return the references that a bench has, the oldest first; raises PicoError where they
     can't be read."""
     from pydantic import TypeAdapter, ValidationError
 
-    path = _path(root)
+    path = _path(place)
     try:
         data = FORMAT.lifted(json.loads(path.read_text(encoding="utf-8")))
         return tuple(TypeAdapter(tuple[Reference, ...]).validate_python(data["references"]))
@@ -56,18 +56,18 @@ def references_in(root: Path) -> tuple[Reference, ...]:
         raise PicoError(error("morning", text, hint=hint)) from exc
 
 
-def keep(root: Path, reference: Reference) -> None:
+def keep(place: Place, reference: Reference) -> None:
     """Keep a reference beside the others, the oldest of which goes where there are too many; raises PicoError where it
     can't be written."""
-    kept = [*references_in(root), reference][-MOST:]
+    kept = [*references_in(place), reference][-MOST:]
     data = json.dumps({"schema": FORMAT.schema, "references": as_json(tuple(kept))}, sort_keys=True).encode()
     what = "the reference of mornings cannot be kept"
-    write_whole(_path(root), data, what=what, code="morning", folders=True)
+    write_whole(_path(place), data, what=what, code="morning", folders=True)
 
 
-def reference_for(root: Path, nominal: Nominal) -> tuple[Reference | None, str]:
+def reference_for(place: Place, nominal: Nominal) -> tuple[Reference | None, str]:
     """Return the last reference that was taken with the bench as it stands; else why there is none."""
-    kept = references_in(root)
+    kept = references_in(place)
     for one in reversed(kept):
         if not _differs(one, nominal):
             return one, ""
@@ -76,8 +76,8 @@ def reference_for(root: Path, nominal: Nominal) -> tuple[Reference | None, str]:
     return None, f"the bench stands otherwise than on {kept[-1].at[:16]}: {_differs(kept[-1], nominal)}"
 
 
-def _path(root: Path) -> Path:
-    return bench_folder(root) / "mornings.json"
+def _path(place: Place) -> Path:
+    return place.folder / "mornings.json"
 
 
 def _differs(one: Reference, nominal: Nominal) -> str:

@@ -15,6 +15,7 @@ from pico.bench.picturing.searches import search_of
 from pico.content.arrays import load_array
 from pico.content.store import store_of
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.edge.network.remotes import Far
 from pico.model.goal import goal_from_json
 from pico.model.measurement import ArrayRef, Measurement, measurement_from_json
 from pico.model.setup import Setup
@@ -94,14 +95,14 @@ def _of(op: OperationRun) -> Iterator[Kept]:
 
 def fetched(folder: LabFolder, found: Iterable[Kept]) -> None:
     """Have the arrays here that are at the edge of a bench on the network; one that is not to be had stays away."""
-    if folder.far is None:
+    if not isinstance(folder.place, Far):
         return
     from pico.edge.network.arrays import bring
     from pico.edge.network.line import line_to
 
     for one in found:
         with suppress(PicoError):
-            bring(folder.far, line_to(folder.far), [one.array.sha256])
+            bring(folder.place, line_to(folder.place), [one.array.sha256])
 
 
 def absent(folder: LabFolder, found: Iterable[Kept]) -> frozenset[str]:

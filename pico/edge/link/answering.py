@@ -82,7 +82,7 @@ class Answering:
 
     def _array(self, name: str) -> str:
         """Return a picture of the last look, or what a run kept that a commit has no room for."""
-        return packed(self._arrays[name] if name in self._arrays else store_of(self.edge.root).get(name))
+        return packed(self._arrays[name] if name in self._arrays else store_of(self.edge.place.root).get(name))
 
     def _remembered(self, method: str, arguments: list[Any]) -> Any:
         memory = self.edge.memory

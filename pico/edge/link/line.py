@@ -8,10 +8,11 @@ from collections.abc import AsyncIterator, Callable
 from pathlib import Path
 from typing import Any, Protocol
 
-from pico.attachment import require_attached
 from pico.diagnostics import error
 from pico.edge.link import wire
 from pico.edge.protocol import Cut
+from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace
 
 ANSWER = 60.0
 """Seconds in which an edge answers what it does not have to move for."""
@@ -57,17 +58,17 @@ def _value(name: str, data: bytes) -> Any:
 
 
 class SocketLine:
-    """The line to the edge whose socket is at `path`, for the worktree of the lab in `root`, if that is told: a
+    """The line to the edge whose socket is at `path`, for the bench at `place`, if that is told: a
     connection for each call."""
 
-    def __init__(self, path: Path, root: Path | None = None) -> None:
-        self._path, self._root = path, root
+    def __init__(self, path: Path, place: BenchPlace | None = None) -> None:
+        self._path, self._place = path, place
 
     def _written(self, name: str, arguments: tuple[Any, ...]) -> bytes:
         """Return a call as it goes over the line; raises PicoError (exit code LOCKED) where it takes a bench that is
         attached to another worktree."""
-        if self._root is not None and name in wire.TAKES:
-            require_attached(self._root)
+        if self._place is not None and name in wire.TAKES:
+            require_attached(self._place)
         return wire.call(name, arguments)
 
     def call(self, name: str, *arguments: Any) -> Any:

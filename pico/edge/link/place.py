@@ -1,5 +1,5 @@
 """Where the socket of a bench is: its path may be no longer than about 100 bytes, so it lies in a folder for temporary
-files, and `.pico/edge.json` names it."""
+files, and `edge.json` in the folder of the bench names it."""
 
 from __future__ import annotations
 
@@ -10,46 +10,46 @@ import socket
 import tempfile
 from pathlib import Path
 
-from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole, writing
+from pico.places.bench import BenchPlace
 
 
-def make(root: Path) -> Path:
-    """Return where the socket of the lab in `root` is to be, in a folder that is only this user's; raises PicoError."""
+def make(bench: BenchPlace) -> Path:
+    """Return where the socket of a bench is to be, in a folder that is only this user's; raises PicoError."""
     folder = Path(tempfile.gettempdir()) / f"pico-{os.getuid()}"
     with writing(folder, code="link"):
         folder.mkdir(mode=0o700, exist_ok=True)
     found = folder.lstat()
     if found.st_uid != os.getuid() or found.st_mode & 0o077 or folder.is_symlink():
         raise PicoError(error("link", f"{folder} is open to others", hint=f"`chmod 700 {folder}`, if it is yours"))
-    return folder / _name(root)
+    return folder / _name(bench)
 
 
-def _name(root: Path) -> str:
-    return f"{hashlib.sha256(os.fsencode(bench_folder(root).resolve())).hexdigest()[:16]}.sock"
+def _name(bench: BenchPlace) -> str:
+    return f"{hashlib.sha256(os.fsencode(bench.folder.resolve())).hexdigest()[:16]}.sock"
 
 
-def announce(root: Path, path: Path) -> None:
+def announce(bench: BenchPlace, path: Path) -> None:
     """Let clients find the socket; raises PicoError."""
     note = json.dumps({"socket": str(path), "pid": os.getpid()}).encode()
-    write_whole(_note(root), note, code="link", folders=True, durable=False)
+    write_whole(_note(bench), note, code="link", folders=True, durable=False)
 
 
-def withdraw(root: Path, path: Path) -> None:
+def withdraw(bench: BenchPlace, path: Path) -> None:
     """Let nobody find the socket any more."""
-    _note(root).unlink(missing_ok=True)
+    _note(bench).unlink(missing_ok=True)
     path.unlink(missing_ok=True)
 
 
-def find(root: Path) -> Path | None:
-    """Return the socket of the edge that serves the lab in `root`; None where none answers.
+def find(bench: BenchPlace) -> Path | None:
+    """Return the socket of the edge that serves a bench; None where none answers.
 
     A note that came along with a copy of the lab's folder names the socket of another bench, and counts for nothing.
     """
     try:
-        path = Path(json.loads(_note(root).read_text(encoding="utf-8"))["socket"])
-        if path.name != _name(root) or path.lstat().st_uid != os.getuid():
+        path = Path(json.loads(_note(bench).read_text(encoding="utf-8"))["socket"])
+        if path.name != _name(bench) or path.lstat().st_uid != os.getuid():
             return None
         with socket.socket(socket.AF_UNIX) as link:
             link.connect(str(path))
@@ -58,5 +58,5 @@ def find(root: Path) -> Path | None:
     return path
 
 
-def _note(root: Path) -> Path:
-    return bench_folder(root) / "edge.json"
+def _note(bench: BenchPlace) -> Path:
+    return bench.folder / "edge.json"

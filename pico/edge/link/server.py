@@ -12,10 +12,8 @@ import os
 import signal
 from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
-from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -23,6 +21,7 @@ from pico.edge.lease import enrolled
 from pico.edge.link import place, wire
 from pico.edge.link.answering import Answering, Taken
 from pico.edge.local import LocalEdge, embedded
+from pico.places.bench import BenchPlace
 
 FAREWELL = 2.0
 """Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
@@ -38,7 +37,7 @@ class Server:
     def __init__(self, edge: LocalEdge) -> None:
         self._edge = edge
         edge.served()
-        self._path = place.make(edge.root)
+        self._path = place.make(edge.place)
         self._answering = Answering(edge)
         self._server: asyncio.Server | None = None
         self._clients: set[asyncio.Task[Any]] = set()
@@ -46,8 +45,11 @@ class Server:
 
     async def open(self) -> None:
         """Begin to serve; raises PicoError where somebody else serves this bench."""
-        if place.find(self._edge.root) is not None:
-            raise PicoError(error("link", f"the bench in {self._edge.root} is served already"), ExitCode.LOCKED)
+        if place.find(self._edge.place) is not None:
+            raise PicoError(
+                error("link", f"the bench `{self._edge.place.name}` in {self._edge.place.root} is served already"),
+                ExitCode.LOCKED,
+            )
         mask = os.umask(0o177)
         try:
             with writing(self._path, what=f"the bench can't be served at {self._path}", code="link"):
@@ -55,7 +57,7 @@ class Server:
                 self._server = await asyncio.start_unix_server(self._client, str(self._path), limit=wire.LONGEST)
         finally:
             os.umask(mask)
-        place.announce(self._edge.root, self._path)
+        place.announce(self._edge.place, self._path)
 
     async def close(self) -> None:
         """Bring what is under way to its safe end, let who follows it hear what became of it, and serve no more."""
@@ -65,7 +67,7 @@ class Server:
             async with asyncio.timeout(FAREWELL):
                 while self._clients:
                     await asyncio.sleep(FAREWELL / 20)
-        place.withdraw(self._edge.root, self._path)
+        place.withdraw(self._edge.place, self._path)
         if self._server is not None:
             self._server.close()
         for client in self._clients:
@@ -106,7 +108,7 @@ class Server:
             if self._ending and name not in READING and not name.startswith("memory"):
                 raise PicoError(error("link", "the edge is about to end", hint="start it again, then call this again"))
             if name in wire.TAKES | wire.HOLDS and self._edge.enrolled:
-                raise PicoError(enrolled(bench_folder(self._edge.root)), ExitCode.LOCKED)
+                raise PicoError(enrolled(self._edge.place.folder), ExitCode.LOCKED)
         except PicoError as exc:
             yield wire.failure(exc)
             return
@@ -145,9 +147,9 @@ async def _mind(edge: LocalEdge) -> None:
                 await edge.release(await edge.acquire("the end of an arming"))
 
 
-def edge_of(root: Path, backend: str, fidelity: str | None = None) -> LocalEdge:
-    """Return the edge to be served of the lab in `root`, by the Lab that its bench keeps, else by the lab's files;
+def edge_of(bench: BenchPlace, fidelity: str | None = None) -> LocalEdge:
+    """Return the edge of a bench to be served, by the Lab that its bench keeps, else by the lab's files;
     without `fidelity` in the lab's own. Raises PicoError."""
-    lab = own_lab.read(root) or own_lab.proposed(root)
+    lab = own_lab.read(bench) or own_lab.proposed(bench.root)
     setup = own_lab.setup_of(lab)
-    return embedded(setup, root, backend, fidelity or setup.lab.sim.fidelity, lab)
+    return embedded(setup, bench, fidelity or setup.lab.sim.fidelity, lab)

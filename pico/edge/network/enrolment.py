@@ -16,14 +16,13 @@ import re
 import secrets
 import ssl
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from urllib.parse import SplitResult, urlsplit
 
-from pico.attachment import bench_folder
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.edge.network.messages import read
 from pico.edge.protocol import ENROLMENT
+from pico.places.bench import BenchPlace
 
 ANSWER = 20.0
 """Seconds in which a coordinator answers."""
@@ -60,10 +59,10 @@ class Enrolment:
         _require_pinned(self.url, self.pin, certificate)
 
 
-def read_enrolment(root: Path) -> Enrolment | None:
-    """Return with whom the bench of the lab in `root` is enrolled; None where with nobody. Raises PicoError where its
+def read_enrolment(place: BenchPlace) -> Enrolment | None:
+    """Return with whom the bench at `place` is enrolled; None where with nobody. Raises PicoError where its
     file can't be read."""
-    path = bench_folder(root) / ENROLMENT
+    path = place.folder / ENROLMENT
     try:
         return Enrolment(**json.loads(path.read_text(encoding="utf-8")))
     except FileNotFoundError:
@@ -73,8 +72,8 @@ def read_enrolment(root: Path) -> Enrolment | None:
         raise PicoError(error("enrolment", text, hint="`pico edge enrol` does it anew")) from exc
 
 
-def enrol(root: Path, url: str, code: str, pin: str = "") -> Enrolment:
-    """Enrol the bench of the lab in `root` with the coordinator at `url`, by a code that was given for it; only that
+def enrol(place: BenchPlace, url: str, code: str, pin: str = "") -> Enrolment:
+    """Enrol the bench at `place` with the coordinator at `url`, by a code that was given for it; only that
     one grants it from then on. Raises PicoError."""
     where, key = _checked(url), secrets.token_bytes(32)
     pin = pin.rpartition("=")[2].replace(":", "").strip().lower()  # also as openssl prints it, with a name before
@@ -83,7 +82,7 @@ def enrol(root: Path, url: str, code: str, pin: str = "") -> Enrolment:
         raise PicoError(error("enrolment", f"`{pin[:80]}` is no SHA-256 of a certificate", hint=hint))
     found = _posted(where, pin, {"code": code, "key": key.hex()})
     enrolment = Enrolment(where.geturl(), str(found["bench"]), key.hex(), pin)
-    path = bench_folder(root) / ENROLMENT
+    path = place.folder / ENROLMENT
     mask = os.umask(0o077)
     try:
         write_whole(path, (json.dumps(asdict(enrolment), indent=1) + "\n").encode(), code="enrolment", folders=True)
@@ -92,9 +91,9 @@ def enrol(root: Path, url: str, code: str, pin: str = "") -> Enrolment:
     return enrolment
 
 
-def withdraw(root: Path) -> None:
-    """Let the bench of the lab in `root` be granted by itself again."""
-    (bench_folder(root) / ENROLMENT).unlink(missing_ok=True)
+def withdraw(place: BenchPlace) -> None:
+    """Let the bench at `place` be granted by itself again."""
+    (place.folder / ENROLMENT).unlink(missing_ok=True)
 
 
 def _checked(url: str) -> SplitResult:

@@ -1,7 +1,7 @@
 """The coordinator of `pico gui` among those that a checkout knows: it is one of them while its process lives.
 
-It may be killed, and then puts nothing back. So its process holds a kernel lock, beside it stands which bench was meant
-before, and whoever next asks for the coordinators of the checkout puts back what it finds left over.
+It may be killed, and then puts nothing back. So its process holds a kernel lock, and whoever next asks for the
+coordinators of the checkout puts back what it finds left over.
 """
 
 from __future__ import annotations
@@ -11,23 +11,24 @@ import os
 import time
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
 
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge.network import remotes
 from pico.edge.network.tokens import keep_token
+from pico.places.bench import BenchPlace
 
 ASKED_WITHIN = 20
 """Hundredths of a second in which others see whether the lock is held."""
 
 
 class OwnPage:
-    """The coordinator at `url` as the one of the lab in `root`, until `end`; raises PicoError (exit code LOCKED) where
-    another page has it."""
+    """The coordinator at `url` as the one that serves the bench at `place`, until `end`; raises PicoError (exit code
+    LOCKED) if another page has it."""
 
-    def __init__(self, root: Path, url: str) -> None:
-        self._root, self._url = root, url
+    def __init__(self, place: BenchPlace, url: str) -> None:
+        root = place.root
+        self._place, self._url = place, url
         path = remotes.lock_of_page(root)
         with writing(path, code="remote"):
             path.parent.mkdir(parents=True, exist_ok=True)
@@ -36,7 +37,7 @@ class OwnPage:
             _take(self._lock)
             known = remotes.left_over_put_back(root)
             named = {**known.named, remotes.PAGE: remotes.Remote(url)}
-            remotes.keep(root, replace(known, named=named, before=known.default))
+            remotes.keep(root, replace(known, named=named))
         except BlockingIOError:
             os.close(self._lock)
             text, hint = "another `pico gui` has this bench", "open that one in the browser, or end it"
@@ -46,16 +47,16 @@ class OwnPage:
             raise
 
     def mean(self, bench: str, secret: str) -> None:
-        """Let commands in the folder mean `bench` (LAB/BENCH) there, and be let in by `secret`; raises PicoError."""
+        """Let commands that mean the bench reach it as `bench` (LAB/BENCH) there, by `secret`; raises PicoError."""
         keep_token(self._url, secret)
-        known = remotes.known(self._root)
+        known = remotes.known(self._place.root)
         if remotes.PAGE in known.named:
-            remotes.keep(self._root, replace(known, default=f"{remotes.PAGE}/{bench}"))
+            remotes.keep(self._place.root, replace(known, page=(self._place.name, bench)))
 
     def end(self) -> None:
         """Put back what was before; raises PicoError."""
         try:
-            remotes.put_back(self._root, self._url)
+            remotes.put_back(self._place.root, self._url)
         finally:
             os.close(self._lock)
 

@@ -2,7 +2,7 @@
 
 They stand in `pico/remotes.json` of Git's own folder, which all worktrees share and no commit brings along; outside Git
 in `.pico`. A bench is called LAB/BENCH, as its coordinator calls it, with the remote's name before it where the
-checkout knows several; `local` is the bench of the checkout itself.
+checkout knows several. Which one a command means: `meant.py`.
 """
 
 from __future__ import annotations
@@ -16,12 +16,11 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from urllib.parse import urlsplit
 
-from pico.attachment import lab_place, own_folder
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.disk import write_whole
+from pico.places.bench import BenchPlace, local_benches
+from pico.places.lab import BENCHES, lab_place, own_folder
 
-LOCAL = "local"
-"""What the bench of the checkout itself is called."""
 PAGE = "gui"
 """What the coordinator of `pico gui` is called while it serves."""
 FILE = "remotes.json"
@@ -39,12 +38,13 @@ class Remote:
 
 @dataclass(frozen=True)
 class Remotes:
-    """The coordinators of a checkout by name, and the bench that is meant where none is said (empty: its own).
-    `before`: which one was, before that of `pico gui` was added; None without that."""
+    """The coordinators of a checkout by name."""
 
     named: Mapping[str, Remote] = field(default_factory=dict)
+    page: tuple[str, str] | None = None
+    """The bench of this machine that `pico gui` serves (`sim`), and its name there (`shel/bench1`)."""
     default: str = ""
-    before: str | None = None
+    """The bench that an earlier PICO meant if none was named, as REMOTE/LAB/BENCH; each worktree chooses now."""
 
 
 @dataclass(frozen=True)
@@ -55,12 +55,14 @@ class Far:
     lab: str
     bench: str
     root: Path
+    local: str = ""
+    """The bench of this machine that it is, while `pico gui` serves that; empty for any other."""
 
     @property
     def folder(self) -> Path:
         """Where the checkout keeps what is its own of this bench."""
         place = re.sub(r"[^A-Za-z0-9.-]", "_", self.remote.url.partition("://")[2])
-        return own_folder(self.root) / "benches" / place / self.lab / self.bench
+        return own_folder(self.root) / BENCHES / place / self.lab / self.bench
 
     @property
     def name(self) -> str:
@@ -71,6 +73,10 @@ class Far:
     def said(self) -> str:
         """`shel/bench1 at https://lab.example`."""
         return f"{self.name} at {self.remote.url}"
+
+
+Place = BenchPlace | Far
+"""A bench: one of this machine, or one of a coordinator."""
 
 
 def address(url: str) -> str:
@@ -86,7 +92,7 @@ def known(root: Path) -> Remotes:
     """Return the coordinators that the checkout of the lab in `root` knows; what a killed `pico gui` left is put back
     first. Raises PicoError for a file that can't be read."""
     found = _read(root)
-    return found if found.before is None else _healed(root, found)
+    return _healed(root, found) if PAGE in found.named else found
 
 
 def _read(root: Path) -> Remotes:
@@ -94,8 +100,10 @@ def _read(root: Path) -> Remotes:
     try:
         document = json.loads(path.read_bytes())
         named = {str(k): Remote(str(v["url"]), str(v.get("certificate", ""))) for k, v in document["remotes"].items()}
-        before = document.get("before")
-        return Remotes(named, str(document.get("default", "")), None if before is None else str(before))
+        default, page = str(document.get("default", "")), document.get("page")
+        if default.startswith(f"{PAGE}/"):  # of an earlier PICO, with what was meant before its page was opened
+            default = str(document.get("before") or "")
+        return Remotes(named, (str(page["bench"]), str(page["as"])) if page else None, default)
     except FileNotFoundError:
         return Remotes()
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
@@ -106,14 +114,15 @@ def _read(root: Path) -> Remotes:
 def keep(root: Path, remotes: Remotes) -> None:
     """Let the checkout of the lab in `root` know these coordinators; raises PicoError."""
     named = {name: {"url": one.url, "certificate": one.certificate} for name, one in sorted(remotes.named.items())}
-    before = {} if remotes.before is None else {"before": remotes.before}
-    data = json.dumps({"remotes": named, "default": remotes.default, **before}, indent=1) + "\n"
+    default = {"default": remotes.default} if remotes.default else {}
+    page = {"page": {"bench": remotes.page[0], "as": remotes.page[1]}} if remotes.page else {}
+    data = json.dumps({"remotes": named, **default, **page}, indent=1) + "\n"
     write_whole(_path(root), data.encode(), folders=True)
 
 
 def added(remotes: Remotes, name: str, remote: Remote) -> Remotes:
     """Return the coordinators with one more; raises PicoError for a name that is none, or is taken."""
-    if not _NAME.fullmatch(name) or name in (LOCAL, PAGE):
+    if not _NAME.fullmatch(name) or name == PAGE:
         text = f"`{name[:40]}` is no name for a remote"
         raise PicoError(error("remote", text, hint="letters, digits, `-` and `_`, such as `lab`"))
     if name in remotes.named:
@@ -123,46 +132,27 @@ def added(remotes: Remotes, name: str, remote: Remote) -> Remotes:
 
 
 def removed(remotes: Remotes, name: str) -> Remotes:
-    """Return the coordinators without one, where that of `pico gui` goes with the bench meant that was before it;
-    raises PicoError where there is none of that name."""
+    """Return the coordinators without one; raises PicoError if there is none of that name."""
     _require(remotes, name)
     rest = {k: v for k, v in remotes.named.items() if k != name}
-    default, before = remotes.default, remotes.before
-    if name == PAGE:
-        default, before = (before or "") if default.startswith(f"{PAGE}/") else default, None
-    if before is not None and before.startswith(f"{name}/"):
-        before = ""
-    return Remotes(rest, "" if default.startswith(f"{name}/") else default, before)
-
-
-def chosen(root: Path, said: str | None = None) -> Far | None:
-    """Return which bench is meant by a word, without one by the checkout's default; None for the checkout's own. Raises
-    PicoError for a word that means none."""
-    word = said or ""
-    if "://" in word:
-        return _by_url(root, word)
-    remotes = known(root)
-    if word == LOCAL:
-        return None
-    if not (word := word or remotes.default):
-        return None
-    remote, lab, bench = named(remotes, word)
-    return Far(remotes.named[remote], lab, bench, root)
+    default = "" if remotes.default.startswith(f"{name}/") else remotes.default
+    return Remotes(rest, None if name == PAGE else remotes.page, default)
 
 
 def named(remotes: Remotes, word: str) -> tuple[str, str, str]:
     """Return remote, lab and bench that a word names: `shel/bench1`, `lab/shel/bench1`; raises PicoError."""
     parts = word.split("/")
+    others = [name for name in remotes.named if name != PAGE] or list(remotes.named)
     if not remotes.named:
         hint = "`pico remote add NAME URL` says where its coordinator is"
         raise PicoError(error("remote", f"{word[:80]}: this checkout knows no coordinator", hint=hint))
-    if len(parts) == 2 and len(remotes.named) > 1:
-        names = ", ".join(f"`{name}/{word}`" for name in sorted(remotes.named))
+    if len(parts) == 2 and len(others) > 1:
+        names = ", ".join(f"`{name}/{word}`" for name in sorted(others))
         raise PicoError(error("remote", f"{word[:80]} of which coordinator?", hint=names))
     if len(parts) == 2:
-        parts = [*remotes.named, *parts]
+        parts = [*others, *parts]
     if len(parts) != 3 or not all(_NAME.fullmatch(part) for part in parts):
-        hint = "LAB/BENCH, as `pico bench list` shows them, or `local` for the bench of this checkout"
+        hint = "LAB/BENCH, `sim`, `emulated` or `hardware`: `pico bench list` shows them"
         raise PicoError(error("remote", f"`{word[:80]}` names no bench", hint=hint))
     _require(remotes, parts[0])
     return parts[0], parts[1], parts[2]
@@ -174,7 +164,7 @@ def _require(remotes: Remotes, name: str) -> None:
         raise PicoError(error("remote", f"there is no remote `{name[:40]}`", hint=hint))
 
 
-def _by_url(root: Path, word: str) -> Far:
+def at_url(root: Path, word: str) -> Far:
     """Return the bench of `pico://host/lab/bench`; a coordinator beyond this machine is asked by TLS only."""
     found = urlsplit(word)
     parts = found.path.strip("/").split("/")
@@ -207,7 +197,7 @@ def left_over_put_back(root: Path) -> Remotes:
     """Put back what a `pico gui` has left whose process is gone, and return the coordinators; raises PicoError."""
     known = _read(root)
     left = known.named.get(PAGE)
-    return known if left is None or known.before is None else put_back(root, left.url)
+    return known if left is None else put_back(root, left.url)
 
 
 def put_back(root: Path, url: str) -> Remotes:
@@ -216,9 +206,10 @@ def put_back(root: Path, url: str) -> Remotes:
     from pico.edge.network.enrolment import read_enrolment, withdraw
     from pico.edge.network.tokens import forget_token
 
-    enrolment = read_enrolment(root)
-    if enrolment is not None and enrolment.url == url:
-        withdraw(root)
+    for place in local_benches(root):
+        enrolment = read_enrolment(place)
+        if enrolment is not None and enrolment.url == url:
+            withdraw(place)
     forget_token(url)
     known = _read(root)
     if PAGE in known.named:

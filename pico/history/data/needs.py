@@ -12,13 +12,16 @@ from pico.diagnostics import PicoError, error
 from pico.history.git import command as git
 from pico.history.repository.repository import Repository
 from pico.model.record import as_json, record
+from pico.places.bench import local_benches
+from pico.places.lab import FOLDER
 
 _RUN = re.compile(r"(?:.*/)?runs/\d{4}/\d{2}/([^/]+)/run\.json")
 LARGEST = 16 << 20
 """Bytes above which nothing is the document of a run; `pico.runs.reading` is stricter."""
 _SHA256 = re.compile(r"[0-9a-f]{64}")
 # What Git does not know: files of runs that were not committed yet, and the journal of a bench.
-_LOOSE = (":(glob)**/runs/*/*/*/run.json", ":(glob)**/.pico/journal.sqlite")
+_JOURNALS = ":(glob)**/.pico/benches/*/journal.sqlite"
+_LOOSE = (":(glob)**/runs/*/*/*/run.json", ":(glob)**/.pico/journal.sqlite", _JOURNALS)
 
 
 @record
@@ -50,11 +53,14 @@ def kept_needs(repository: Repository) -> Needs:
     committed = _committed(repository, ("--all", "--reflog", "--indexed-objects"))
     found = [_needed_by(run, data) for run, data in committed]
     for tree in _worktrees(repository):
+        labs = set[Path]()
         for path in _loose(tree):
             if path.name == "run.json":
                 found.append(_needed_by(path.parent.name, path.read_bytes() if _readable(path) else b""))
             else:
-                found += _waiting(path.parent.parent)
+                labs.add(next(one for one in path.parents if one.name == FOLDER).parent)
+        for lab in sorted(labs):
+            found += _waiting(lab)
     return united(found)
 
 
@@ -119,14 +125,14 @@ def _readable(path: Path) -> bool:
 
 
 def _waiting(root: Path) -> list[tuple[Need, ...]]:
-    """Return what the runs in the journal of the bench in `root` need that no commit has yet."""
+    """Return what the runs in the journals of the benches in `root` need that no commit has yet."""
     from pico.history.lab.folder import LabFolder
     from pico.history.runs import unrecorded
 
     try:
-        runs = unrecorded(LabFolder(root))
+        runs = [run for place in local_benches(root) for run in unrecorded(LabFolder(root, place=place))]
     except PicoError as exc:
-        text = f"nobody can tell what the runs of the bench in {root} need still, so nothing is removed"
+        text = f"nobody can tell what the runs of the benches in {root} need still, so nothing is removed"
         hint = "`pico validate` there says what is wrong with it"
         raise PicoError((error("data-needs", text, hint=hint), *exc.diagnostics)) from exc
     return [tuple(_need(run.document.id, as_json(a)) for a in run.document.artifacts) for run in runs]

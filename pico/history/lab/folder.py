@@ -10,7 +10,6 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pico.attachment import own_folder
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.execution.stale import edited as edited_lab
 from pico.history.git import command as git
@@ -29,9 +28,10 @@ from pico.model.diff import Change, diff_states
 from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
+from pico.places.lab import own_folder
 
 if TYPE_CHECKING:
-    from pico.edge.network.remotes import Far
+    from pico.edge.network.remotes import Place
     from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
     from pico.model.trace.expectation import Standing
@@ -72,18 +72,18 @@ class LabFolder:
     For its `history` alone, wrong manifests (a merge may be going on) are no reason to refuse: bench and state are then
     those of HEAD, and `wrong` says what is wrong.
 
-    With `bench`, its `setup` is what the bench keeps as its own Lab (`own`), whatever the working tree says, which only
-    proposes another one; where it keeps none yet, what the working tree says now. Else `own` is None. `far`: the
-    bench of a coordinator, instead of the folder's own.
+    `place` is the bench whose runs count as the lab's own until a commit has them; without one there are none. With
+    `keeps`, its `setup` is what that bench keeps as its own Lab (`own`), whatever the working tree says, which only
+    proposes another one; if it keeps none yet, what the working tree says now. Else `own` is None.
     """
 
     def __init__(
-        self, path: Path, *, history: bool = False, bench: bool = False, far: Far | None = None
+        self, path: Path, *, history: bool = False, place: Place | None = None, keeps: bool = False
     ) -> None:  # fmt: skip
-        self.root, self.far = find_lab(path), far
+        self.root, self.place = find_lab(path), place
         own_folder(self.root)
-        self.own = _kept(self.root, far) if bench else None
-        self._keeps = bench
+        self.own = _kept(place) if place and keeps else None
+        self._keeps = keeps
         self._benches: dict[BenchFiles, Setup | None] = {}
         self._files: dict[str, bytes] = {}
         self._historic: dict[str, tuple[Setup, LabState]] = {}
@@ -383,10 +383,10 @@ class LabFolder:
         return self.notes(part)[-1]
 
 
-def _kept(root: Path, far: Far | None) -> OwnLab | None:
+def _kept(place: Place) -> OwnLab | None:
     from pico.edge.network.opening import own_lab
 
-    return own_lab(root, far)
+    return own_lab(place)
 
 
 def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:

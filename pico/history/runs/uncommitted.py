@@ -11,10 +11,9 @@ from dataclasses import replace
 from datetime import datetime
 from pathlib import Path
 
-from pico.attachment import bench_folder, own_folder
 from pico.diagnostics import Diagnostic, PicoError
 from pico.edge.network.opening import holder_of, remembered
-from pico.edge.network.remotes import PAGE, known
+from pico.edge.network.remotes import Far
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.committed import find_runs, read_place
 from pico.history.runs.proof import Standings
@@ -23,6 +22,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.state import LabState
 from pico.model.trace.expectation import Standing
 from pico.model.trace.run import FOLD, TRIALS, GoalStood, Run
+from pico.places.bench import BenchPlace
 from pico.runs.document import RecordedRun, recorded
 from pico.runs.files import DOCUMENT, MEASUREMENTS, TRACE, Keep, run_files, run_folder
 from pico.runs.folding import fold
@@ -47,12 +47,14 @@ def pending(
     tree goes.
     """
     runs = unrecorded(folder)
-    if folder.far is not None:
+    if isinstance(folder.place, Far):
         from pico.edge.network.arrays import bring
         from pico.edge.network.line import line_to
 
         bring(
-            folder.far, line_to(folder.far), [one.sha256 for run in runs for one in run.document.artifacts if one.shape]
+            folder.place,
+            line_to(folder.place),
+            [one.sha256 for run in runs for one in run.document.artifacts if one.shape],
         )
     here = [i for i, run in enumerate(runs) if seen and is_awaited(run.document) and _of(run.document, seen)]
     if here and seen is not None:  # what moved a simulated bench says nothing of a real one, and the other way around
@@ -118,9 +120,10 @@ def of_others(folder: LabFolder, word: str = "", diagnostics: list[Diagnostic] |
 def _unrecorded(
     folder: LabFolder, those: Callable[[LabFolder, Iterable[RunRecord]], Iterable[RunRecord]] | None = None
 ) -> list[RecordedRun]:  # fmt: skip
-    if folder.far is None and bench_folder(folder.root).resolve() != own_folder(folder.root).resolve():
+    place = folder.place
+    if place is None or (isinstance(place, BenchPlace) and place.folder.resolve() != place.own.resolve()):
         return []  # they are carried by what is committed in the worktree that has the bench
-    with remembered(folder.root, folder.far) as memory:
+    with remembered(place) as memory:
         if memory is None:
             return []
         moving = memory.moving()
@@ -188,17 +191,16 @@ def _keep(folder: LabFolder) -> Keep | None:
 def _own(folder: LabFolder, runs: Iterable[RunRecord]) -> Iterable[RunRecord]:
     """Return the runs that this checkout is to carry: on a bench that it shares with others those that it began. That
     which `pico gui` serves is its own, whatever the address was at which it did so."""
-    page = known(folder.root).named.get(PAGE)
-    if folder.far is None or (page is not None and page.url == folder.far.remote.url):
+    if not isinstance(folder.place, Far) or folder.place.local:
         return runs
     from pico.edge.network.session import runs_begun
 
-    begun = frozenset(runs_begun(folder.far.folder))
+    begun = frozenset(runs_begun(folder.place.folder))
     return [run for run in runs if run.run in begun]
 
 
 def _goes_on(folder: LabFolder, run: RunRecord) -> bool:
-    return run.finished_at is None and holder_of(folder.root, folder.far) is not None
+    return run.finished_at is None and folder.place is not None and holder_of(folder.place) is not None
 
 
 def _seconds(moment: str) -> float:

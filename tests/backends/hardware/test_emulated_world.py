@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from emulated_lab import wired_lab
 
 from pico.backends.emulated.behind import OfPart
@@ -46,7 +47,7 @@ def gripped(world: EmulatedWorld, path: MovePath, opened: float = 55.0) -> float
 def test_fingers_close_on_the_part_between_them_and_put_it_down_where_they_open(
     setup: Setup, tmp_path: Path, path: MovePath
 ) -> None:
-    world, grasp = EmulatedWorld(setup, tmp_path), setup.type_of("lx_125").geometry.grasp
+    world, grasp = EmulatedWorld(setup, bench_at(tmp_path, "emulated")), setup.type_of("lx_125").geometry.grasp
     assert grasp is not None
     assert gripped(world, path) == grasp.width == world.width("arm1")
     assert world.world().robots["arm1"].holding == "lx_125"
@@ -62,14 +63,14 @@ def test_fingers_close_on_the_part_between_them_and_put_it_down_where_they_open(
 def test_a_part_that_is_let_go_of_high_above_the_table_does_not_stand(
     setup: Setup, tmp_path: Path, path: MovePath
 ) -> None:
-    world = EmulatedWorld(setup, tmp_path)
+    world = EmulatedWorld(setup, bench_at(tmp_path, "emulated"))
     gripped(world, path)
     world.fingers("arm1", at_the_end_of(path, "transit"), 60.0, world.width("arm1"))
     assert world.world().components["lx_125"].presence == "toppled"
 
 
 def test_fingers_that_close_beside_a_part_close_on_nothing(setup: Setup, tmp_path: Path, path: MovePath) -> None:
-    world = EmulatedWorld(setup, tmp_path)
+    world = EmulatedWorld(setup, bench_at(tmp_path, "emulated"))
     assert world.fingers("arm1", at_the_end_of(path, "transit"), 30.0, 55.0) == 30.0
     assert world.world().robots["arm1"].holding is None
 
@@ -77,17 +78,17 @@ def test_fingers_that_close_beside_a_part_close_on_nothing(setup: Setup, tmp_pat
 def test_the_world_is_there_again_with_what_a_hand_held_when_its_process_was_killed(
     setup: Setup, tmp_path: Path, path: MovePath
 ) -> None:
-    gripped(EmulatedWorld(setup, tmp_path), path)  # nothing is closed
-    again = EmulatedWorld(setup, tmp_path)
+    gripped(EmulatedWorld(setup, bench_at(tmp_path, "emulated")), path)  # nothing is closed
+    again = EmulatedWorld(setup, bench_at(tmp_path, "emulated"))
     assert again.world().robots["arm1"].holding == "lx_125"
     again.moved("arm1", at_the_end_of(path, "transit"))
     carried = again.world().components["lx_125"].pose
     assert carried is not None and carried.distance(GOAL) < 1e-6
-    assert not world_path(tmp_path).exists(), "the simulator's table is another"
+    assert not world_path(bench_at(tmp_path)).exists(), "the simulator's table is another"
 
 
 def test_who_only_looks_writes_nothing(setup: Setup, tmp_path: Path) -> None:
-    world = EmulatedWorld(setup, tmp_path)
+    world = EmulatedWorld(setup, bench_at(tmp_path, "emulated"))
     world.set_value("p1", "angle", world.value("p1", "angle") or 0.0)
     world.store()
     assert not (tmp_path / ".pico").exists()
@@ -95,21 +96,21 @@ def test_who_only_looks_writes_nothing(setup: Setup, tmp_path: Path) -> None:
 
 def test_the_clock_goes_at_the_pace_of_the_world(setup: Setup, tmp_path: Path) -> None:
     wall = [100.0]
-    world = EmulatedWorld(setup, tmp_path, pace=10, wall=lambda: wall[0])
+    world = EmulatedWorld(setup, bench_at(tmp_path, "emulated"), pace=10, wall=lambda: wall[0])
     wall[0] += 3.0
     assert world.now() == pytest.approx(30.0)
 
 
 def test_a_device_has_its_own_numbers_of_a_tunable_and_keeps_what_it_was_told(setup: Setup, tmp_path: Path) -> None:
     assert setup.wiring is not None
-    world, entry = EmulatedWorld(setup, tmp_path), setup.wiring.devices["ly_150_y"]
+    world, entry = EmulatedWorld(setup, bench_at(tmp_path, "emulated")), setup.wiring.devices["ly_150_y"]
     behind = OfPart(world, "ly_150_y", entry, "ly_150", "axis")
     behind.write("angle", 200.0)
     assert world.value("ly_150", "stage_y") == pytest.approx(0.2)
     assert behind.read("angle") == pytest.approx(200.0)
     assert behind.read("stuck") is None
     behind.write("jog", 143361)
-    again = OfPart(EmulatedWorld(setup, tmp_path), "ly_150_y", entry, "ly_150", "axis")
+    again = OfPart(EmulatedWorld(setup, bench_at(tmp_path, "emulated")), "ly_150_y", entry, "ly_150", "axis")
     assert again.read("jog") == 143361
     shutter = OfPart(world, "laser_shutter", setup.wiring.devices["laser_shutter"], "laser", "shutter")
     shutter.write("open", True)

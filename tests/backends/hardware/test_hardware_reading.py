@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from emulated_lab import wired_lab
 
 from pico.backends.hardware import device
@@ -122,7 +123,7 @@ def test_what_has_no_device_is_left_out_but_for_light(setup: Setup) -> None:
 @pytest.mark.skipif(not (find_spec("xarm") and find_spec("ElliptecBus")), reason="the extras xarm and thorlabs")
 def test_the_instruments_of_a_lab_are_found_by_what_it_names(setup: Setup, tmp_path: Path) -> None:
     assert setup.wiring is not None
-    found = wired(setup, setup.wiring.devices, Buses(), Settings(tmp_path, "hardware"))
+    found = wired(setup, setup.wiring.devices, Buses(), Settings(bench_at(tmp_path, "hardware")))
     assert set(found.arms) == set(found.grippers) == {"arm1"} and set(found.cameras) == {"left", "right"}
     assert {"p1.angle", "ly_150.stage_y", "laser.shutter", "laser.emission", "cam.exposure"} <= set(found.tunables)
     assert set(found.sensors) == {"cam"} and set(found.inputs) == {"curtain"}
@@ -157,7 +158,8 @@ def test_a_camera_that_fails_is_asked_again_but_not_for_long(
     bench = Instruments()
     bench.cameras["left"] = Silent()  # type: ignore[assignment]
     monkeypatch.setattr(device, "PATIENCE", patience)
-    about = HardwareDevice(setup, tmp_path, Links(setup, tmp_path, "hardware"), "kinematic", clock=lambda: "")
+    place = bench_at(tmp_path, "hardware")
+    about = HardwareDevice(setup, place, Links(setup, place), "kinematic", clock=lambda: "")
     with pytest.raises(PicoError):
         asyncio.run(about._frame(bench, "left"))
     assert len(grabs) == asked

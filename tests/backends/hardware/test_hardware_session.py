@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bench_at import bench_at
 from emulated_lab import wired_lab
 
 from pico.backends.by_sight import BySight
@@ -471,10 +472,10 @@ def test_an_axis_that_reads_elsewhere_has_failed_by_component_and_operation(setu
 
 
 def test_what_cameras_were_told_is_kept_where_the_bench_is(tmp_path: Path) -> None:
-    assert Settings(tmp_path, "hardware").get("cam.exposure", 0.02) == 0.02
-    Settings(tmp_path, "hardware").put("cam.exposure", 5.0)
-    assert Settings(tmp_path, "hardware").get("cam.exposure", 0.02) == 5.0
-    assert Settings(tmp_path, "emulated").get("cam.exposure", 0.02) == 0.02
+    assert Settings(bench_at(tmp_path, "hardware")).get("cam.exposure", 0.02) == 0.02
+    Settings(bench_at(tmp_path, "hardware")).put("cam.exposure", 5.0)
+    assert Settings(bench_at(tmp_path, "hardware")).get("cam.exposure", 0.02) == 5.0
+    assert Settings(bench_at(tmp_path, "emulated")).get("cam.exposure", 0.02) == 0.02
 
 
 def test_a_leg_that_ends_where_it_begins_is_not_gone(setup: Setup) -> None:

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from changing import Lab
 
 from pico.bench.bench import Bench
@@ -128,7 +129,7 @@ def test_the_bench_its_journal_and_its_lock_are_not_touched(lab: Lab) -> None:
     with Bench.open(lab.root) as bench:
         bench.sim.nudge("lx_100", dx=3)
     before = {p: p.read_bytes() for p in (lab.root / ".pico").rglob("*") if p.is_file()}
-    with BenchLock(lab.root).held("somebody's apply"):
+    with BenchLock(bench_at(lab.root)).held("somebody's apply"):
         held = {p: p.read_bytes() for p in (lab.root / ".pico").rglob("*") if p.is_file()}
         assert checked(lab).exit_code == 0
         assert {p: p.read_bytes() for p in (lab.root / ".pico").rglob("*") if p.is_file()} == held

@@ -9,6 +9,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from carrying import (
     apply,
     carried,
@@ -44,7 +45,7 @@ def stood(tmp_path_factory: pytest.TempPathFactory) -> Path:
     make_example("shel", folder)
     with Bench.open(folder) as bench:
         bench.apply()
-    (folder / ".pico" / "journal.sqlite").unlink()
+    (folder / ".pico/benches/sim" / "journal.sqlite").unlink()
     return folder
 
 
@@ -467,7 +468,7 @@ def begun(folder: Path, outcome: str | None) -> None:
     with Bench.open(folder) as bench:
         plan = bench.plans.single("p1", "set", {"angle": "5"})
         seen = bench.observe().components["p1"]
-    with closing(Journal(folder / ".pico" / "journal.sqlite")) as journal:
+    with closing(Journal(folder / ".pico/benches/sim" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
         journal.intend("r1/op1/1", plan.operations[0], 1)
         journal.started("r1/op1/1", seen, 1)
@@ -489,7 +490,7 @@ def test_a_run_that_was_killed_is_carried_as_what_it_was(lab: Path) -> None:
 
 def test_a_run_that_goes_on_is_not_carried_yet(lab: Path) -> None:
     begun(lab, None)
-    with BenchLock(lab).held("somebody's apply"):
+    with BenchLock(bench_at(lab)).held("somebody's apply"):
         assert own(lab) == []
     assert [d.id for d in own(lab)] == ["r1"]
 
@@ -497,7 +498,7 @@ def test_a_run_that_goes_on_is_not_carried_yet(lab: Path) -> None:
 def test_a_run_that_moved_nothing_is_not_carried(lab: Path) -> None:
     with Bench.open(lab) as bench:
         plan = bench.plans.single("p1", "set", {"angle": "5"})
-    with closing(Journal(lab / ".pico" / "journal.sqlite")) as journal:
+    with closing(Journal(lab / ".pico/benches/sim" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
         journal.intend("r1/op1/1", plan.operations[0], 1)
         journal.end_run("r1", "interrupted", {"done": 0, "skipped": 1})

@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 
 from pico.backends.sim.device import SimDevice
 from pico.manifest.load import load_folder
@@ -49,7 +50,7 @@ def crossed(tmp_path: Path) -> tuple[Setup, Observation]:
     setup = load_folder(tmp_path).require()[0]
 
     async def seen() -> Observation:
-        device = SimDevice(setup, tmp_path, clock=lambda: "2026-11-01T12:00:00Z")
+        device = SimDevice(setup, bench_at(tmp_path), clock=lambda: "2026-11-01T12:00:00Z")
         await device.take(1, lambda _: None)
         found = await device.observe()
         await device.leave()

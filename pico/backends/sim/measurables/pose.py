@@ -25,7 +25,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     from pico.backends.sight import BLIND
     from pico.backends.sim.sight import see
 
-    found = see(table.setup, table.root, table.world, "sim", "", {})
+    found = see(table.setup, table.place, table.world, "sim", "", {})
     problems = found.observation.problems
     if blind := [p for p in problems if p.code in BLIND]:
         raise Failed(blind[0])

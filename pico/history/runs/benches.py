@@ -1,0 +1,85 @@
+"""The benches of this machine that a lab has, with what each holds: runs that no commit has, and the last run."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+from pico.backends.devices import EMULATED, HARDWARE, shipped
+from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.edge.network.opening import holder_of, remembered
+from pico.edge.network.remotes import Place
+from pico.edge.protocol import Holder
+from pico.history.lab.folder import LabFolder
+from pico.history.runs.uncommitted import is_awaited, unrecorded
+from pico.model.record import record
+from pico.places.bench import BenchPlace, local_benches
+from pico.places.lab import lab_place
+from pico.places.record import read_record
+
+
+@record
+class BenchState:
+    """What a bench of this machine holds."""
+
+    bench: str
+    """Its name, such as `sim`."""
+    pending: int = 0
+    """The number of runs that moved something and that no commit has yet, as far as this worktree carries them."""
+    last: str | None = None
+    """The id of the last run, None before the first."""
+    began: str | None = None
+    """When that began, as ISO 8601."""
+    attached: str | None = None
+    """The folder of the lab in the worktree that is attached to the bench; None if none is."""
+    here: bool = False
+    """Whether that is this worktree."""
+    holder: Holder | None = None
+    """Who moves it now."""
+
+
+def bench_states(root: Path) -> tuple[BenchState, ...]:
+    """Return the benches of this machine that the lab in `root` has or may have, those that come with PICO first."""
+    lab = lab_place(root)
+    recorded = read_record(lab).get(lab.inside, {}) if lab else {}
+    used = [place.name for place in local_benches(root)]
+    names = dict.fromkeys([*sorted(shipped(), key=_order), *sorted(used), *sorted(recorded)])
+    return tuple(bench_state(BenchPlace(root, name)) for name in names if name)
+
+
+def bench_state(place: BenchPlace) -> BenchState:
+    """Return what a bench of this machine holds; of a journal that can't be read, nothing."""
+    lab = lab_place(place.root)
+    there = place.attached
+    used = there.folder.is_dir()
+    last, pending = None, 0
+    with suppress(PicoError):
+        with remembered(place) as memory:
+            last = memory.last() if memory else None
+        if last is not None:
+            folder = LabFolder(place.root, history=True, place=place)
+            pending = sum(is_awaited(run.document) for run in unrecorded(folder))
+    return BenchState(
+        bench=place.name, pending=pending, last=last.run if last else None, began=last.started_at if last else None,
+        attached=str(there.root) if used else None, here=used and there.root in (place.root, lab and lab.root),
+        holder=holder_of(place),
+    )  # fmt: skip
+
+
+def require_usable(place: Place) -> tuple[Diagnostic, ...]:
+    """Return what is worth knowing before a worktree chooses a bench: a real one whose lab describes no devices."""
+    if not isinstance(place, BenchPlace) or place.name not in (HARDWARE, EMULATED):
+        return ()
+    from pico.manifest.load import load_folder
+
+    setup = load_folder(place.root).setup
+    if setup is None or setup.wiring is not None:
+        return ()
+    hint = 'a file with `kind: Devices` names a driver and an address for each: see "Running a real bench" in the docs'
+    text = f"this lab has no devices file, so `{place.name}` can move nothing yet"
+    return (warning("no-devices", text, hint=hint),)
+
+
+def _order(name: str) -> tuple[int, str]:
+    known = ("sim", EMULATED, HARDWARE)
+    return (known.index(name) if name in known else len(known), name)

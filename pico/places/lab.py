@@ -1,0 +1,108 @@
+"""Where a lab lies in Git, and what PICO keeps beside its manifests (`.pico/`)."""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from dataclasses import dataclass
+from pathlib import Path
+
+from pico.diagnostics import Diagnostic, PicoError, error
+
+FOLDER = ".pico"
+BENCHES = "benches"
+"""The folder in `.pico` that holds a folder for each bench."""
+RECORD = "bench.json"
+IGNORE = ".gitignore"
+
+
+@dataclass(frozen=True)
+class LabPlace:
+    """Where a lab lies: its folder, that of its worktree, and Git's folder that all worktrees share."""
+
+    root: Path
+    top: Path
+    common: Path
+
+    @property
+    def inside(self) -> str:
+        """The lab's folder in the repository."""
+        return self.root.relative_to(self.top).as_posix()
+
+    @property
+    def record(self) -> Path:
+        """The file that says which worktree has which bench."""
+        return self.common / "pico" / RECORD
+
+
+def lab_place(root: Path) -> LabPlace | None:
+    """Return where a lab lies, None outside Git; without git, for every command asks."""
+    root = Path(os.path.realpath(root))
+    for top in (root, *root.parents):
+        mark = top / ".git"
+        try:
+            own = mark if mark.is_dir() else (top / mark.read_text().removeprefix("gitdir:").strip())
+        except (OSError, ValueError):
+            continue
+        try:
+            shared = (own / "commondir").read_text().strip()
+        except (OSError, ValueError):
+            shared = "."
+        common = Path(os.path.realpath(own / shared))
+        return LabPlace(root, top, common) if (common / "objects").is_dir() else None
+    return None
+
+
+def own_folder(root: Path) -> Path:
+    """Return what PICO keeps beside the manifests in `root`; raises PicoError for a link in it.
+
+    PICO makes none there: a commit of somebody else brought it, and what PICO writes would go where it points.
+    """
+    own_names(root)
+    return root / FOLDER
+
+
+def own_names(root: Path) -> frozenset[str]:
+    """Return what lies directly in `.pico` of the lab in `root`, and see that Git leaves it alone. Raises PicoError as
+    `own_folder` does."""
+    names = refuse_links(root / FOLDER)
+    if names and IGNORE not in names:
+        _ignore(root / FOLDER)
+    return names
+
+
+def make_own_folder(root: Path) -> Path:
+    """Make the folder in which PICO keeps what it knows, for Git to leave alone, and return it. Raises OSError,
+    PicoError."""
+    folder = own_folder(root)
+    folder.mkdir(parents=True, exist_ok=True)
+    _ignore(folder)
+    return folder
+
+
+def _ignore(folder: Path) -> None:
+    """Let Git leave a folder alone, also in `git add -A`, `git stash -u` and `git clean -fd`."""
+    with suppress(OSError):  # on a read-only disk Git changes nothing, either
+        if not (folder / IGNORE).exists():
+            (folder / IGNORE).write_text("*\n", encoding="ascii")
+
+
+def refuse_links(folder: Path) -> frozenset[str]:
+    """Return the names in a folder, none if there is no such folder. Raises PicoError if it, or what lies directly in
+    it, is a symbolic link."""
+    if folder.is_symlink():
+        raise PicoError(_link(folder))
+    try:
+        with os.scandir(folder) as found:
+            entries = list(found)
+    except OSError:
+        return frozenset()
+    for entry in entries:
+        if entry.is_symlink():
+            raise PicoError(_link(Path(entry.path)))
+    return frozenset(entry.name for entry in entries)
+
+
+def _link(path: Path) -> Diagnostic:
+    text = f"{path} is a symbolic link, and PICO would write where it points"
+    return error("symlink", text, hint="delete it; what PICO keeps there it makes itself")
