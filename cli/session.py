@@ -5,13 +5,13 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 import typer
 
-from pico.backends.devices import EMULATED, HARDWARE, opener
+from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR, opener
 from pico.diagnostics import PicoError, error
 from pico.places.splitting import take_report
 
@@ -106,8 +106,7 @@ class Session:
         place = self.place(find_lab(self.folder))
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place)
         loaded()
-        if bench.far is not None and not self.json:
-            write(sys.stderr, paint("dim", f"on {bench.far.said}"))
+        self._head(bench.setup.lab.name, place)
         if self.context is not None:
             self.context.call_on_close(bench.close)
             self.context.call_on_close(lambda: self.tell(bench.folder.recovered))  # while a guard was still at it
@@ -116,11 +115,16 @@ class Session:
 
             standing[:] = [Standing(bench.place)]
             self.wire(bench.root)
-        self.tell((*take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
+        self.tell((*_lost(place), *take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
         return bench
+
+    def _head(self, lab: str, place: Place) -> None:
+        """Say on which bench a command is, unless that is the simulator of this lab."""
+        if place.name != SIMULATOR and not self.json:
+            write(sys.stderr, paint("dim", f"{lab} · {place.said}"))
 
     def history(self) -> LabHistory:
         """Open the history of this session's lab, also while its manifests are wrong; raises PicoError."""
@@ -202,3 +206,12 @@ class Session:
             answer = ""
             write(sys.stdout, "")
         return answer.strip().lower() in ("y", "yes")
+
+
+def _lost(place: Place) -> tuple[Diagnostic, ...]:
+    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused."""
+    from pico.places.bench import BenchPlace
+    from pico.places.lost import lost_bench
+
+    found = lost_bench(place) if isinstance(place, BenchPlace) else None
+    return (replace(found, severity="warning"),) if found else ()

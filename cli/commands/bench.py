@@ -34,9 +34,9 @@ def list_(context: typer.Context) -> None:
     Examples:
       pico bench list
     """
-    from pico.history.runs.benches import bench_states
     from pico.edge.network import remotes
     from pico.edge.network.asking import ask
+    from pico.history.runs.benches import bench_states
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
@@ -70,8 +70,8 @@ def use(
       pico bench use emulated
       pico bench use sim
     """
-    from pico.history.runs.benches import bench_state, require_usable
     from pico.edge.network import meant, remotes
+    from pico.history.runs.benches import bench_state, require_usable
     from pico.manifest.load import find_lab
     from pico.places.bench import BenchPlace
     from pico.places.choice import write_choice

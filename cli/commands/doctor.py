@@ -2,12 +2,18 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import typer
 
-from pico.diagnostics import ExitCode
+from pico.diagnostics import ExitCode, PicoError
 
 from ..session import Session
 from ..views import doctor as view
+
+if TYPE_CHECKING:
+    from pico.diagnostics import Diagnostic
 
 
 def doctor(context: typer.Context) -> int:
@@ -22,7 +28,21 @@ def doctor(context: typer.Context) -> int:
 
     session = Session.of(context)
     checked = check_folder(session.folder, beside=missing_files)
-    found = (*checkup(session.folder), *checked.diagnostics)
+    found = (*checkup(session.folder), *checked.diagnostics, *_lost(session.folder))
     session.tell(found)
     session.show(view, found)
     return ExitCode.ERROR if any(d.severity == "error" for d in found) else ExitCode.DONE
+
+
+def _lost(folder: Path) -> tuple[Diagnostic, ...]:
+    """Return which benches of the lab around a folder are gone, as Git's own folder knows."""
+    from pico.backends.devices import shipped
+    from pico.manifest.load import find_lab
+    from pico.places.bench import BenchPlace
+    from pico.places.lost import lost_bench
+
+    try:
+        root = find_lab(folder)
+    except PicoError:  # which is said already
+        return ()
+    return tuple(found for name in shipped() if (found := lost_bench(BenchPlace(root, name))))

@@ -23,8 +23,11 @@ def stop(context: typer.Context, now: Now = False) -> None:
       pico stop --now
       pico stop --bench shel/bench1
     """
-    from pico.bench.running.stopping import stop
+    from pico.bench.running.stopping import moved_elsewhere, stop
     from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    session.show(view, *stop(session.place(find_lab(session.folder)), now=now))
+    place = session.place(find_lab(session.folder))
+    stopped = stop(place, now=now)
+    others = () if stopped[0] else moved_elsewhere(place)
+    session.show(view, *stopped, bench=place.title, others=others, now=now)

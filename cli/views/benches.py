@@ -10,8 +10,8 @@ from pico.edge.network.meant import word_for
 from .style import ago, columns, count, inert, paint
 
 if TYPE_CHECKING:
-    from pico.history.runs.benches import BenchState
     from pico.edge.network.remotes import Place
+    from pico.history.runs.benches import BenchState
 
 Found = Mapping[str, Sequence[Mapping[str, Any]]]
 """What each remote has."""
@@ -65,8 +65,8 @@ def _state(one: Mapping[str, Any]) -> str:
 
 def data(local: Sequence[BenchState], found: Found, meant: Place) -> dict[str, Any]:
     """Return schema `pico.benches/v1`: of each bench of coordinators (`benches`) its `remote`, `bench`, `holder` and
-    who is `waiting`, whether it is `connected`; of each of this machine (`local`) its `bench`, how many runs are `pending`,
-    the `last` run and when it `began`, and where it is `attached`; `meant`, as `--bench` takes it."""
+    who is `waiting`, whether it is `connected`; of each of this machine (`local`) its `bench`, `holder`, how many runs
+    are `pending`, the `last` run and when it `began`, and where it is `attached`; `meant`, as `--bench` takes it."""
     benches = [
         {
             "remote": remote, "bench": one["bench"], "holder": (one.get("lease") or {}).get("holder"),

@@ -8,7 +8,7 @@ from pico.model.record import as_json
 from pico.model.trace.report import Committed
 
 from .diff import lines
-from .style import count, paint
+from .style import count, on_bench, paint
 
 
 def text(made: Committed) -> str:
@@ -21,7 +21,7 @@ def text(made: Committed) -> str:
     if not made.realized:
         block.append("Nobody compared this state with the bench, and the commit says so: `pico verify` does.")
     elif made.runs:
-        block.append(f"With {count(len(made.runs), 'run')} ({made.evidence}).")
+        block.append(f"With {count(len(made.runs), 'run')} ({on_bench(made.evidence, made.bench)}).")
     if not made.branch:
         block.append("HEAD is detached and no branch holds this commit: `git switch -c NAME` keeps it findable.")
     return "\n".join(block)

@@ -17,7 +17,7 @@ from pico.model.trace.run import Run
 
 from .diff import brief, lines
 from .runs import shown
-from .style import columns, count, pad, paint, printable, seconds, wide, width, wrap
+from .style import columns, count, on_bench, pad, paint, printable, seconds, wide, width, wrap
 
 FEW = 2
 """Runs of a commit that are told one by one where it has a line; more are summed up."""
@@ -159,13 +159,14 @@ def evidence_lines(entry: CommitEntry, most: int | None = None) -> list[str]:
     found = []
     standing = entry.standing
     if standing and standing.verdict != "unknown":
-        by = f" ({standing.evidence})" if standing.evidence else ""
+        by = f" ({on_bench(standing.evidence, standing.bench)})" if standing.evidence else ""
         found += wrap(f"{paint('dim', standing.verdict)}{by}: {shown(standing.why)}", "  ")
     if most is not None and len(entry.runs) > most:
         return [*found, f"  {ended(*entry.runs)}: `pico show {entry.commit.short}`"]
     for run in entry.runs:
         color = "green" if run.outcome == "done" else "red"
-        found.append(f"  {paint('dim', f'run {shown(run.id)}')}: {paint(color, ended(run))} ({run.evidence})")
+        by = on_bench(run.evidence, run.bench)
+        found.append(f"  {paint('dim', f'run {shown(run.id)}')}: {paint(color, ended(run))} ({by})")
         for one in run.expectations:
             if not one.holds:
                 verb = "failed" if one.holds is False else "could not be told" if one.assured else "was not assured"
@@ -204,13 +205,14 @@ def entry_data(entry: CommitEntry) -> dict[str, Any]:
     """Return one commit with its physical diff as JSON data."""
     c = entry.commit
     runs = [
-        {"id": run.id, "outcome": run.outcome, "evidence": run.evidence, "seconds": run.seconds, "tally": run.tally,
-         "expectations": as_json(run.expectations)}
+        {"id": run.id, "outcome": run.outcome, "bench": run.bench, "evidence": run.evidence, "seconds": run.seconds,
+         "tally": run.tally, "expectations": as_json(run.expectations)}
         for run in entry.runs
     ]  # fmt: skip
     return {
         "id": c.id, "parents": list(c.parents), "refs": list(c.refs), "author": c.author, "time": c.time.isoformat(),
         "message": c.message, "changes": as_json(entry.changes), "evidence": entry.evidence,
+        "bench": entry.standing.bench if entry.standing else None,
         "verdict": entry.standing.verdict if entry.standing else "", "runs": as_json(runs),
         "meta": meta(c.message),
     } | ({"unreadable": entry.unreadable} if entry.unreadable else {})  # fmt: skip

@@ -62,10 +62,8 @@ def data(plan: Plan, **_: Any) -> dict[str, Any]:
 
 def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, now: datetime | None = None) -> str:
     """Return `shel · sim (kinematic) · HEAD C3 → e1 (E1-3 "p2 tilted") · only p2 · seen 2 min ago`."""
-    parts = [
-        paint("bold", plan.lab.name),
-        plan.backend if plan.backend in REAL else f"{plan.backend} ({plan.fidelity})",
-    ]
+    bench = plan.bench or plan.backend
+    parts = [paint("bold", plan.lab.name), bench if plan.backend in REAL else f"{bench} ({plan.fidelity})"]
     if single:
         return " · ".join([*parts, "one operation"])
     target = goal or plan.target.name

@@ -32,7 +32,9 @@ def text(
 def _own(found: Sequence[tuple[Run, Commit | None]]) -> str:
     if not found:
         return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
-    head = [paint("dim", cell) for cell in ("run", "when (UTC)", "what", "evidence", "outcome", "took", "commit")]
+    head = [
+        paint("dim", cell) for cell in ("run", "when (UTC)", "what", "bench", "evidence", "outcome", "took", "commit")
+    ]
     rows = [_row(run, commit) for run, commit in found]
     own = sum(commit is None and run.cause.kind not in TRIALS for run, commit in found)
     last = [f"{count(own, 'run')} that no commit has yet: `pico commit` takes {'it' if own == 1 else 'them'}."]
@@ -44,6 +46,7 @@ def _row(d: Run, commit: Commit | None) -> list[str]:
         shown(d.id),
         moment(d.started_at),
         shorten(deed(d), 26),
+        shown(d.bench or ""),
         d.evidence,
         paint(COLORS[d.outcome], d.outcome) if d.outcome != "done" or not d.unmet else paint("yellow", "not met"),
         seconds(d.seconds),

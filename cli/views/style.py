@@ -168,3 +168,8 @@ def place(value: Any) -> str:
     if isinstance(value, bool):
         return "true" if value else "false"
     return number(value, 4) if isinstance(value, int | float) else str(value)
+
+
+def on_bench(evidence: str, bench: str | None) -> str:
+    """Return `kinematic, sim`; `emulated` and `hardware` are benches that say so themselves."""
+    return evidence if bench in (None, evidence) else f"{evidence}, {printable(str(bench))}"

@@ -13,7 +13,7 @@ from .diff import lines
 from .measured import value
 from .report import expectations
 from .runs import shown
-from .style import columns, count, paint, wrap
+from .style import columns, count, on_bench, paint, wrap
 
 if TYPE_CHECKING:
     from pico.diagnosis.suspects import Suspect
@@ -79,7 +79,9 @@ def _said(standing: Standing) -> list[str]:
     if standing.verdict == "unknown":
         return []
     what = (
-        f"Simulated ({standing.evidence}): never hardware." if standing.simulated else f"On {_ON[standing.evidence]}."
+        f"Simulated ({on_bench(str(standing.evidence), standing.bench)}): never hardware."
+        if standing.simulated
+        else f"On {_ON[standing.evidence]}."
     )
     when = f" {standing.at[:16].replace('T', ' ')} UTC" if standing.at else ""
     if standing.run is None:

@@ -25,7 +25,8 @@ from pico.history.lab.contents import Contents, contents, nothing
 from pico.history.lab.contents import commit as committed
 from pico.history.lab.folder import LabFolder
 from pico.history.messages.default import default_message
-from pico.history.messages.trailers import EVIDENCE, LAB, STATE, require_meta, values
+from pico.history.messages.trailers import BENCH, EVIDENCE, LAB, STATE, require_meta, values
+from pico.history.runs.benches import pending_elsewhere
 from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, holds, read_addresses
 from pico.model.comparing.status import refuse_unapplied
@@ -142,7 +143,8 @@ class Commits:
             made = committed(
                 folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
             )  # fmt: skip
-        return replace(made, diagnostics=(*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder)))
+        told = (*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder))
+        return replace(made, diagnostics=(*told, *pending_elsewhere(self.opened.place)))
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
         """Return the message that `commit` would write where nobody says why; raises PicoError as that does."""
@@ -251,7 +253,8 @@ def _stood(folder: LabFolder) -> datetime | None:
     commit = folder.history().resolve(head)
     evidence, digest = values(commit.message, EVIDENCE), values(commit.message, STATE)
     realized = evidence and evidence[-1] != "planned" and digest and digest[-1] == committed.digest()
-    return commit.time if realized else None
+    here = values(commit.message, BENCH)[-1:] in ((), (_place(folder).title,))  # another bench stood so, not this one
+    return commit.time if realized and here else None
 
 
 def _changes(folder: LabFolder, state: LabState) -> tuple[Change, ...]:

@@ -178,6 +178,8 @@ class Plans:
         """Return the plan with what the beam audit and the policy of the lab say of it, which claims its goal does not
         carry, and which goals it makes stale. Of a step of an open run nobody reads that, and its edge judges it again
         anyway."""
+        if (far := self.opened.far) is not None and not far.local:
+            plan = replace(plan, bench=far.name).sealed()
         if self.opened.recording is not None and (plan.asked or plan.target.title):
             return plan
         plan = self._within_dose(with_claims(self.opened, with_audit(self.opened, plan, seen)), seen)

@@ -10,7 +10,7 @@ from pico.bench.cut_short import not_left, unattended
 from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.comparing.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, touched_by
@@ -22,6 +22,7 @@ from pico.planning.parts.phrases import listed
 from pico.runs.left_set import left_set
 
 if TYPE_CHECKING:
+    from pico.edge.network.remotes import Place
     from pico.model.setup import Setup
     from pico.runs.journal import RunRecord
     from pico.runs.memory import Memory
@@ -48,11 +49,12 @@ class Recovery:
 
         memory = self._memory()
         refuse_in_use(self.opened)
-        last = _last(memory)
+        last = _last(self.opened.place, memory)
         sought = _cut_goals(memory, last.run)
         if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
-            raise PicoError(error("nothing-to-resume", text, hint=_goes_on(memory)))
+            nothing = error("nothing-to-resume", text, hint=_goes_on(memory))
+            raise PicoError([nothing, *self._elsewhere("resume")])
         began = document_of(memory, last)
         if steered := next((op for op in began.operations if op.primitive == "teleoperate"), None):
             raise PicoError(_steered(steered.component, steered.robot))
@@ -73,7 +75,7 @@ class Recovery:
         left = tuple(_left_out(began, memory, last.run, sought))
         if left and not plan.operations:
             raise PicoError([replace(d, severity="error", code="nothing-to-resume") for d in left])
-        plan = replace(plan, diagnostics=(*left, *plan.diagnostics))
+        plan = replace(plan, diagnostics=(*self._elsewhere("resume"), *left, *plan.diagnostics))
         return renumbered(plan, last.resumed + 1), last.run
 
     def undo_plan(self) -> Plan:
@@ -91,7 +93,7 @@ class Recovery:
         runs = [run for run in reversed(memory.runs()) if run.run in moving]
         last = next((n for n, run in enumerate(runs) if document_of(memory, run).target.cause != "recover"), None)
         if last is None:
-            raise PicoError(_no_run())
+            raise PicoError(_no_run(self.opened.place))
         self._as_before(memory)
         done = {one for run in runs[: last + 1] for one in begun_by(memory, run)}
         before, held = state_before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
@@ -108,7 +110,8 @@ class Recovery:
             title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run
         )
         targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
-        return Plans(self.opened).to_state(looked, PlanGoal(wanted, target, exact=numbers, targets=targets))
+        goal = PlanGoal(wanted, target, exact=numbers, targets=targets)
+        return Plans(self.opened).to_state(looked, goal, told=self._elsewhere("undo"))
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement
@@ -153,7 +156,11 @@ class Recovery:
     def answer(self, key: str, *, done: bool) -> None:
         """Record what a person says of an operation that only a person can tell the end of; see `Edge.resolve`."""
         from pico.edge.lease import user
+        from pico.history.runs.benches import refuse_of_another
 
+        memory, run = self.opened.edge.memory, key.partition("/")[0]
+        if memory is None or all(one.run != run for one in memory.runs()):
+            refuse_of_another(self.opened.place, run, f"recover --{'' if done else 'not-'}done {key}")
         self.opened.wait(self.opened.edge.resolve(key, "done" if done else "failed", user()))
 
     def _emptied(self, seen: Observation) -> Observation:
@@ -165,8 +172,21 @@ class Recovery:
     def _memory(self) -> Memory:
         memory = self.opened.edge.memory
         if memory is None:
-            raise PicoError(_no_run())
+            raise PicoError(_no_run(self.opened.place))
         return memory
+
+    def _elsewhere(self, command: str) -> tuple[Diagnostic, ...]:
+        """Return that a later run of this lab was on another bench of this machine, if so: this one was perhaps meant
+        by mistake."""
+        from pico.history.runs.benches import later_elsewhere
+
+        other = later_elsewhere(self.opened.place)
+        if not other:
+            return ()
+        text = (
+            f"the last run of this lab was on the bench `{other}`, and this command means `{self.opened.place.title}`"
+        )
+        return (warning("other-bench", text, hint=f"`pico --bench {other} {command}` goes on there"),)
 
 
 def _steered(component: str, robot: str | None) -> Diagnostic:
@@ -302,12 +322,16 @@ def document_of(memory: Memory, run: RunRecord) -> Plan:
     return plan_from_json(text)
 
 
-def _last(memory: Memory) -> RunRecord:
+def _last(place: Place, memory: Memory) -> RunRecord:
     last = memory.last()
     if last is None:
-        raise PicoError(_no_run())
+        raise PicoError(_no_run(place))
     return last
 
 
-def _no_run() -> Diagnostic:
-    return error("no-run", "the journal of this bench knows no run that moved anything", hint="`pico plan`")
+def _no_run(place: Place) -> Diagnostic:
+    from pico.history.runs.benches import later_elsewhere
+
+    other = later_elsewhere(place)
+    hint = f"the last run was on `{other}`: add `--bench {other}`" if other else "`pico plan`"
+    return error("no-run", f"the journal of the bench `{place.title}` knows no run that moved anything", hint=hint)

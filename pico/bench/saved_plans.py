@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import Diagnostic, PicoError
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.execution.stale import edited, stale
 from pico.model.diff import diff_states
 from pico.model.plan import Plan
@@ -21,6 +21,8 @@ def changed_since(opened: Opened, plan: Plan, seen: Observation) -> list[Diagnos
     what changed and by how much."""
     from pico.execution.checks import require_current
 
+    if other := _of_another(opened, plan):
+        return [other]
     found = [*_lab(opened, plan), *_commit(opened, plan), *_goal(opened, plan), *_calibration(opened, plan)]
     if plan.lab.digest == opened.setup.digest():
         try:
@@ -28,6 +30,19 @@ def changed_since(opened: Opened, plan: Plan, seen: Observation) -> list[Diagnos
         except PicoError as exc:
             found += exc.diagnostics
     return found
+
+
+def _of_another(opened: Opened, plan: Plan) -> Diagnostic | None:
+    """Return that a plan was made for another bench, None if it was not."""
+    far = opened.far
+    here = far.name if far is not None and not far.local else opened.backend_name
+    made_for = plan.bench or plan.backend
+    if made_for == here:
+        return None
+    text = f"this plan was made for the bench `{made_for}`, and this command means `{here}`"
+    return error(
+        "other-bench", text, hint=f"`--bench {made_for}` applies it there; `pico plan` makes one for this bench"
+    )
 
 
 def _lab(opened: Opened, plan: Plan) -> Iterator[Diagnostic]:

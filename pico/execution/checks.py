@@ -56,8 +56,8 @@ def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
 
 def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
     if plan.backend != able.name:
-        text = f"the plan was made for {plan.backend}, not for {able.name}"
-        yield error("backend", text, hint=f"plan again with `--backend {able.name}`")
+        text = f"this plan was made for the bench `{plan.bench or plan.backend}`, and this is `{able.name}`"
+        yield error("backend", text, hint=f"plan again with `--bench {able.name}`")
     elif plan.fidelity != able.fidelity:
         text = f"the plan was made for {plan.fidelity}, and this bench is served in {able.fidelity}"
         yield error("fidelity", text, hint=f"plan again with `--fidelity {able.fidelity}`")

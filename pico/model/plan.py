@@ -129,7 +129,8 @@ class Plan:
     these operations ends [s], where the arms tell how long they take. `spoils`: goals that it leaves unaligned, in the
     order along the beam in which they are to be redone. `blocking`: of a plan that is impossible for its order of
     moves, constraints that no order keeps, as few as are enough. `errored` where the diagnostics hold an error:
-    then the plan must not be applied.
+    then the plan must not be applied. `backend`: the device that it is for, and so the bench of this machine;
+    `bench`: that of a coordinator.
     """
 
     schema: str = FORMAT.schema
@@ -148,6 +149,7 @@ class Plan:
     policy: tuple[Mapping[str, Any], ...] = ()
     spoils: tuple[Spoiled, ...] | None = None
     blocking: tuple[Blocking, ...] | None = None
+    bench: str | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

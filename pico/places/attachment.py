@@ -11,8 +11,10 @@ import shutil
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.disk import writing
 from pico.places.bench import BenchPlace, folder_in
-from pico.places.lab import lab_place
+from pico.places.lab import lab_place, make_own_folder
+from pico.places.lost import lost_bench
 from pico.places.record import is_of, note, recorded, recording
 
 _STAYS = ("holder.json", "incoming", "replaced")
@@ -27,7 +29,10 @@ def require_attached(bench: BenchPlace) -> None:
         return
     with recording(place) as record:
         there = recorded(place, record, bench.name)
+        if there in (None, place.root) and (lost := lost_bench(bench)):
+            raise PicoError(lost, ExitCode.LOCKED)
         if there is None:
+            _begin(bench)  # first: a bench that the record knows, and that is not there, was lost
             note(place, record, bench.name)
         elif there != place.root:
             raise PicoError(_elsewhere(bench, there, gone=not is_of(there, place)), ExitCode.LOCKED)
@@ -49,10 +54,20 @@ def attach(bench: BenchPlace) -> Path | None:
         there = before if before != place.root and before is not None and is_of(before, place) else None
         if there is not None:
             _bring(folder_in(there, bench.name), folder_in(place.root, bench.name))
+        else:
+            _begin(bench)
         note(place, record, bench.name)
     if there is not None:
         _clear(folder_in(there, bench.name))
     return there
+
+
+def _begin(bench: BenchPlace) -> None:
+    """Let a bench have a folder with its lock, as one that was used."""
+    with writing(bench.own, code="folder"):
+        make_own_folder(bench.root)
+        bench.own.mkdir(parents=True, exist_ok=True)
+        (bench.own / "lock").touch()
 
 
 def _bring(there: Path, here: Path) -> None:

@@ -50,6 +50,11 @@ class BenchPlace:
         """What the bench is called in messages."""
         return self.name
 
+    @property
+    def title(self) -> str:
+        """What runs and commits call the bench."""
+        return self.name
+
 
 def local_benches(root: Path) -> tuple[BenchPlace, ...]:
     """Return the benches of this machine that this worktree of the lab in `root` keeps; raises PicoError."""

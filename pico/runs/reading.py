@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import fields
+from dataclasses import fields, replace
 from functools import cache
 from typing import Any
 
@@ -42,7 +42,12 @@ def read_document(path: str, data: bytes, name: str) -> Run | Diagnostic:
     except ValueError as exc:
         return _damaged(path, str(exc))
     wrong = _wrong(document, name)
-    return _damaged(path, wrong) if wrong else document
+    return _damaged(path, wrong) if wrong else on_its_bench(document)
+
+
+def on_its_bench(document: Run) -> Run:
+    """Return the document of a run with its bench; one of an earlier PICO says only which device that had."""
+    return document if document.bench else replace(document, bench=document.environment.get("backend"))
 
 
 def read_events(path: str, data: bytes, diagnostics: list[Diagnostic] | None = None) -> tuple[TraceEvent, ...]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from benches import shel, sim
 from tables import change_world, reset_world
 

@@ -156,14 +156,25 @@ def test_completion_reads_no_pipe_and_no_link(shel: Path) -> None:
     assert "p2" in candidates(["get", ""])
 
 
-@pytest.mark.parametrize("name", [".pico", ".pico/sim", ".pico/lock", ".pico/journal.sqlite", ".pico/write.tmp"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        ".pico",
+        ".pico/benches",
+        ".pico/benches/sim",
+        ".pico/benches/sim/lock",
+        ".pico/sim",
+        ".pico/journal.sqlite",
+        ".pico/write.tmp",
+    ],
+)
 def test_what_pico_keeps_is_not_written_through_a_link(shel: Path, tmp_path: Path, pico: Pico, name: str) -> None:
     outside = tmp_path / "outside"
     outside.mkdir()
     victim = outside / "victim"
     victim.write_text("mine")
-    (shel / name).parent.mkdir(exist_ok=True)
-    (shel / name).symlink_to(outside if name in (".pico", ".pico/sim") else victim)
+    (shel / name).parent.mkdir(parents=True, exist_ok=True)
+    (shel / name).symlink_to(outside if name.endswith((".pico", "benches", "sim")) else victim)
     for words in (
         ("apply", "e2", "--auto-approve"),
         ("move", "p2", "home", "-y"),

@@ -10,10 +10,12 @@ from pathlib import Path
 import pytest
 from bench_at import bench_at
 from commanding import Pico
-from pico.attachment import attached, lab_place, require_attached
 
 from pico.diagnostics import PicoError
 from pico.edge.lease import BenchLock
+from pico.places.attachment import require_attached
+from pico.places.lab import lab_place
+from pico.places.record import attached
 
 
 def git(folder: Path, *words: str) -> str:
@@ -58,7 +60,7 @@ def test_the_first_that_moves_has_the_bench_and_the_other_one_plans_against_it(
     at(pico, other, "drift", "--detailed-exitcode")
     at(pico, other, "plan", "e2", "--detailed-exitcode", code=2)
     assert lab_place(shel).record.is_file()
-    assert attached(lab_place(other)) == shel
+    assert attached(lab_place(other), "sim") == shel
 
 
 @pytest.mark.parametrize(
@@ -76,7 +78,7 @@ def test_what_would_move_the_bench_is_refused_in_another_worktree_which_stays_as
     at(pico, shel, "apply", "e1", "--auto-approve")
     before = (shel / ".pico/benches/sim/world.json").read_text()
     said = " ".join(at(pico, other, *words, code=5).split())  # however wide the terminal is
-    assert f"only plans: the bench is attached to {shel}" in said and "`pico git attach`" in said
+    assert f"only plans on `sim`: that bench is attached to {shel}" in said and "`pico git attach`" in said
     assert (shel / ".pico/benches/sim/world.json").read_text() == before
     assert not (shel / ".pico/benches/sim/faults.json").exists()
     assert git(other, "rev-parse", "HEAD") == git(shel, "rev-parse", "e1^0")
@@ -99,7 +101,7 @@ def test_the_bench_moves_to_the_worktree_that_is_attached(shel: Path, other: Pat
     world = (shel / ".pico/benches/sim/world.json").read_bytes()
     answer = pico("-C", str(other), "git", "attach", "--json")
     assert answer.code == 0 and answer.data == {
-        "schema": "pico.attached/v1", "folder": str(other), "before": str(shel),
+        "schema": "pico.attached/v1", "bench": "sim", "folder": str(other), "before": str(shel),
     }  # fmt: skip
     assert (other / ".pico/benches/sim/world.json").read_bytes() == world
     assert not (shel / ".pico/benches/sim/world.json").exists()
@@ -115,21 +117,21 @@ def test_what_a_worktree_had_of_its_own_before_is_set_aside(shel: Path, other: P
     (other / ".pico/benches/sim").mkdir(parents=True)
     (other / ".pico/benches/sim/world.json").write_text("of an older PICO")
     at(pico, other, "git", "attach")
-    assert (other / ".pico/replaced/sim/world.json").read_text() == "of an older PICO"
+    assert (other / ".pico/benches/sim/replaced/world.json").read_text() == "of an older PICO"
 
 
 def test_a_bench_in_use_is_not_taken_away(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
     with BenchLock(bench_at(shel)).held("somebody's apply"):
         assert "somebody's apply" in at(pico, other, "git", "attach", code=5)
-    assert attached(lab_place(other)) == shel
+    assert attached(lab_place(other), "sim") == shel
 
 
 def test_a_bench_whose_worktree_is_gone_is_free_and_that_is_said(shel: Path, other: Path, pico: Pico) -> None:
     at(pico, other, "apply", "e1", "--auto-approve")
     git(shel, "worktree", "remove", "--force", str(other))
     said = at(pico, shel, "apply", "e1", "--auto-approve", code=5)
-    assert f"attached to {other}, which is gone, with its simulated table" in said
+    assert f"attached to {other}, which is gone, with its state and journal" in said
     at(pico, shel, "git", "attach")
     at(pico, shel, "apply", "e1", "--auto-approve")
 
@@ -138,7 +140,7 @@ def test_a_repository_that_was_moved_or_copied_keeps_its_bench(shel: Path, pico:
     at(pico, shel, "apply", "e1", "--auto-approve")
     copy = shel.parent / "copy"
     shutil.copytree(shel, copy)
-    assert bench_at(copy).folder == copy / ".pico"
+    assert bench_at(copy).folder == copy / ".pico/benches/sim"
     at(pico, copy, "apply", "e2", "--auto-approve")
     assert "Nothing to do" in at(pico, shel, "plan", "e1")
 
@@ -156,16 +158,16 @@ def test_two_labs_of_one_repository_are_two_benches(shel: Path, pico: Pico) -> N
     for name in ("a", "b"):
         shutil.copytree(shel, inner / name, ignore=shutil.ignore_patterns(".git", ".pico"))
     at(pico, inner / "a", "apply", "--auto-approve")
-    assert json.loads((inner / ".git/pico/bench.json").read_text()) == {"a": "../a"}
+    assert json.loads((inner / ".git/pico/bench.json").read_text()) == {"a": {"sim": "../a"}}
     assert not (inner / "b" / ".pico/benches/sim").exists()
     at(pico, inner / "b", "apply", "--auto-approve")
-    assert bench_at(inner / "b").folder == inner / "b" / ".pico"
+    assert bench_at(inner / "b").folder == inner / "b" / ".pico/benches/sim"
 
 
 def test_a_lab_outside_git_has_its_bench_beside_it(shel: Path, pico: Pico) -> None:
     shutil.rmtree(shel / ".git")
     at(pico, shel, "apply", "--auto-approve")
-    assert bench_at(shel).folder == shel / ".pico"
+    assert bench_at(shel).folder == shel / ".pico/benches/sim"
     at(pico, shel, "git", "attach", code=1)
 
 
@@ -188,7 +190,7 @@ def test_a_record_that_is_damaged_names_nobody(shel: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
     for text in ("", "[]", '{".": 3}', "\0", '{".": "../../../../../../etc"}'):
         lab_place(shel).record.write_text(text)
-        assert bench_at(shel).folder == shel / ".pico"
+        assert bench_at(shel).folder == shel / ".pico/benches/sim"
 
 
 def test_a_stop_from_another_worktree_reaches_the_bench(shel: Path, other: Path, pico: Pico) -> None:

@@ -40,3 +40,11 @@ def _ask(place: Place, holder: Holder, now: bool) -> None:
         ask_to_stop(place, holder.token, "now" if now else "safely")
     elif (line := line_of(place)) is not None:
         line.call("stop" if now else "halt")
+
+
+def moved_elsewhere(place: Place) -> tuple[tuple[str, Holder], ...]:
+    """Return which other benches of this machine somebody moves, by name, and who."""
+    from pico.history.runs.benches import other_benches
+
+    found = ((one.name, holder_of(one)) for one in other_benches(place, place.root))
+    return tuple((name, holder) for name, holder in found if holder is not None)

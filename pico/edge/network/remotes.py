@@ -70,6 +70,11 @@ class Far:
         return f"{self.lab}/{self.bench}"
 
     @property
+    def title(self) -> str:
+        """What runs and commits call the bench."""
+        return self.local or self.name
+
+    @property
     def said(self) -> str:
         """`shel/bench1 at https://lab.example`."""
         return f"{self.name} at {self.remote.url}"

@@ -9,7 +9,18 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.lab.folder import LabFolder
 from pico.history.lab.notes import is_note, note_path
 from pico.history.lab.run_files import run_trailers, write_once
-from pico.history.messages.trailers import EVIDENCE, HAND, LAB, META, NO_HAND, RUN, STATE, require_meta, with_trailers
+from pico.history.messages.trailers import (
+    BENCH,
+    EVIDENCE,
+    HAND,
+    LAB,
+    META,
+    NO_HAND,
+    RUN,
+    STATE,
+    require_meta,
+    with_trailers,
+)  # fmt: skip
 from pico.history.writing.in_progress import require_resolved
 from pico.manifest.edit import components_of
 from pico.manifest.file_names import is_manifest
@@ -98,6 +109,7 @@ def commit(
         written = [write_once(folder.root, path, data) for path, data in sorted(runs.items())]
         digest, lab = content.state.digest(), folder.setup.lab
         added = [(STATE, digest), (EVIDENCE, evidence), (LAB, f"{lab.name} {folder.described.digest()}")]
+        added += [(BENCH, folder.place.title)] if folder.place is not None and evidence != "planned" else []
         added += [] if hands is None else [(HAND, ", ".join(sorted(hands)) or NO_HAND)]
         added += [*run_trailers(runs), *((META, f"{key}={value}") for key, value in sorted(meta.items()))]
         text = with_trailers(message, added)
@@ -112,6 +124,7 @@ def commit(
         captured=captured,
         realized=evidence != "planned",
         evidence=evidence,
+        bench=folder.place.title if folder.place is not None and evidence != "planned" else None,
         runs=tuple(value for key, value in run_trailers(runs) if key == RUN),
         meta=meta,
         diagnostics=repository.noticed,

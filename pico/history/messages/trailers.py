@@ -13,9 +13,11 @@ from pico.diagnostics import PicoError, error
 Trailers = tuple[tuple[str, str], ...]
 STATE, EVIDENCE, LAB = "Pico-State", "Pico-Evidence", "Pico-Lab"
 RUN, PLAN, META, HAND = "Pico-Run", "Pico-Plan", "Pico-Meta", "Pico-Hand"
+BENCH = "Pico-Bench"
+"""The bench that stood so."""
 NO_HAND = "none"
 """What HAND says where all that no run changed was written into the manifest."""
-_OURS = {STATE.lower(), EVIDENCE.lower(), LAB.lower(), RUN.lower(), PLAN.lower(), HAND.lower()}
+_OURS = {STATE.lower(), EVIDENCE.lower(), LAB.lower(), RUN.lower(), PLAN.lower(), HAND.lower(), BENCH.lower()}
 _TRAILER = re.compile(r"([A-Za-z0-9-]+)[ \t]*:[ \t]*(.*)")
 _OF_GIT = ("Signed-off-by: ", "(cherry picked from commit ")
 _KEY = re.compile(r"[a-z][a-z0-9_.-]*")

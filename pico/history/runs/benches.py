@@ -6,7 +6,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from pico.backends.devices import EMULATED, HARDWARE, shipped
-from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge.network.opening import holder_of, remembered
 from pico.edge.network.remotes import Place
 from pico.edge.protocol import Holder
@@ -64,6 +64,64 @@ def bench_state(place: BenchPlace) -> BenchState:
         attached=str(there.root) if used else None, here=used and there.root in (place.root, lab and lab.root),
         holder=holder_of(place),
     )  # fmt: skip
+
+
+def other_benches(place: Place | None, root: Path) -> tuple[BenchPlace, ...]:
+    """Return the benches of this machine that the lab in `root` has, but for `place`."""
+    mine = place.title if place is not None else ""
+    return tuple(one for one in local_benches(root) if one.name != mine)
+
+
+def refuse_of_another(place: Place | None, word: str, command: str) -> None:
+    """Raise PicoError if a word that names no run of the bench `place` is, begins or ends the id of a run of another
+    bench of this machine, naming both; `command`: what to call there."""
+    if place is None or not word:
+        return
+    for other in other_benches(place, place.root):
+        with suppress(PicoError), remembered(other) as memory:
+            found = [one.run for one in memory.runs() if fits(word, one.run)] if memory else []
+            if not found:
+                continue
+            text = f"run {found[-1]} was on the bench `{other.name}`, and this command means `{place.title}`"
+            wrong = error("other-bench", text, hint=f"`pico --bench {other.name} {command}` reaches it")
+            break
+    else:
+        return
+    raise PicoError(wrong)
+
+
+def fits(word: str, run: str) -> bool:
+    """Return whether a word is, begins or ends the id of a run."""
+    return run.startswith(word) or run.endswith(f"-{word}")
+
+
+def later_elsewhere(place: Place) -> str:
+    """Return the bench of this machine whose last run began after that of the bench `place`, empty if none did."""
+    last = {one.name: _last(one) for one in other_benches(place, place.root)}
+    with suppress(PicoError), remembered(place) as memory:
+        mine = memory.last() if memory else None
+        later = {name: at for name, at in last.items() if at > (mine.started_at if mine else "")}
+        return max(later, key=lambda name: later[name]) if later else ""
+    return ""
+
+
+def _last(place: BenchPlace) -> str:
+    with suppress(PicoError), remembered(place) as memory:
+        last = memory.last() if memory else None
+        return last.started_at if last else ""
+    return ""
+
+
+def pending_elsewhere(place: Place) -> tuple[Diagnostic, ...]:
+    """Return, in one note, how many runs of other benches of this machine no commit has; none if there are none."""
+    states = [bench_state(one) for one in other_benches(place, place.root)]
+    left = [(one.bench, one.pending) for one in states if one.pending]
+    if not left:
+        return ()
+    said = ", ".join(f"{n} run{'s' if n > 1 else ''} on {name}" for name, n in left)
+    total = sum(n for _, n in left)
+    hint = f"`pico --bench {left[0][0]} commit` takes {'it' if total == 1 else 'those of that bench'}"
+    return (Diagnostic("note", "other-benches", f"{said} stay{'s' if total == 1 else ''} uncommitted", hint=hint),)
 
 
 def require_usable(place: Place) -> tuple[Diagnostic, ...]:

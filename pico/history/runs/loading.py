@@ -13,6 +13,7 @@ from pico.content.store import Store, store_in, store_of
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
+from pico.history.runs.benches import refuse_of_another
 from pico.history.runs.committed import (
     RunPlace,
     files_at,
@@ -90,7 +91,11 @@ def _loaded(folder: LabFolder, word: str | None) -> tuple[RecordedRun, Commit | 
     known = sorted({*own, *places})
     if not _fitting(word, known) and (there := {run.document.id: run for run in of_others(folder, word, wrong)}):
         return there[_chosen(word, sorted(there), ())], None
-    name = _chosen(word, known, sorted(folded))
+    try:
+        name = _chosen(word, known, sorted(folded))
+    except PicoError:
+        refuse_of_another(folder.place, word, f"runs show {word}")
+        raise
     if name in own:
         return own[name], None
     return _carried(folder, places[name], wrong) if name in places else _member(folder, name, folded[name], wrong)

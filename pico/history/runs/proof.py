@@ -103,7 +103,7 @@ class Standings:
                 led = _leading(run, state)
                 return Standing(
                     verdict="verified", commit=commit.id, state=state, evidence=led.evidence, run=led.id,
-                    at=led.ended_at, carried=place.commit if place else None,
+                    at=led.ended_at, carried=place.commit if place else None, bench=led.bench,
                     why=f"the run {led.id} {_led(led)} exactly this state", diagnostics=tuple(wrong),
                 )  # fmt: skip
         if wrong:
@@ -128,10 +128,13 @@ def _led(run: Run) -> str:
 def unproven(claim: CommitClaim, diagnostics: tuple[Diagnostic, ...] = ()) -> Standing:
     """Return the standing of a commit to whose state no run led."""
 
+    benches = trailers.values(claim.message, trailers.BENCH)
+
     def judged(verdict: Verdict, why: str, evidence: str | None = None) -> Standing:
         return Standing(
-            verdict=verdict, commit=claim.commit, state=claim.state, evidence=evidence, why=why, diagnostics=diagnostics
-        )
+            verdict=verdict, commit=claim.commit, state=claim.state, evidence=evidence, why=why,
+            bench=benches[-1] if evidence and benches else None, diagnostics=diagnostics,
+        )  # fmt: skip
 
     told = trailers.values(claim.message, trailers.STATE)
     evidence = next(iter(trailers.values(claim.message, trailers.EVIDENCE)), "planned")

@@ -133,7 +133,7 @@ def _unrecorded(
         carried = _carried(folder, over)
         fresh = ((run, part) for run in over if (part := carried.get(run.run, -1) + 1) <= run.resumed)
         found = (recorded(folder.setup, memory, run, part) for run, part in fresh)
-        return [run for run in found if run is not None]
+        return [replace(one, document=replace(one.document, bench=place.title)) for one in found if one is not None]
 
 
 def standing_of(folder: LabFolder, revision: str | None = None) -> Standing | None:

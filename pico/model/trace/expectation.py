@@ -87,9 +87,9 @@ class Standing:
     merged or edited, and nobody has applied it since. `planned`: nothing says that a bench ever stood so. `unknown`:
     its manifests can't be read.
 
-    `state`: the digest. Where it is verified: `evidence` (`kinematic`, `physics`, `emulated`, `hardware`), `run` that
-    led there, or None where it was only captured, `at` when, and `carried` by which commit: None where this bench alone
-    knows the run yet. `why` in words.
+    `state`: the digest. Where it is verified: `evidence` (`kinematic`, `physics`, `emulated`, `hardware`), the `bench`
+    that stood so, `run` that led there, or None where it was only captured, `at` when, and `carried` by which commit:
+    None where this bench alone knows the run yet. `why` in words.
     """
 
     verdict: Verdict
@@ -100,6 +100,7 @@ class Standing:
     at: str = ""
     carried: str | None = None
     why: str = ""
+    bench: str | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property

@@ -122,7 +122,8 @@ class Committed:
     """A commit that was made: its id and message, what it changed against its parent, and the digest of its state.
 
     `captured`: what was taken from the bench for it. `realized`: the bench stood as the commit says when it was made.
-    `evidence`: what that rests on. `runs`: the ids of the runs that it carries. `meta`: what `--meta` recorded.
+    `evidence`: what that rests on, on which `bench`. `runs`: the ids of the runs that it carries. `meta`: what `--meta`
+    recorded.
     """
 
     commit: str
@@ -133,6 +134,7 @@ class Committed:
     captured: tuple[Change, ...] = ()
     realized: bool = True
     evidence: str = ""
+    bench: str | None = None
     runs: tuple[str, ...] = ()
     meta: Mapping[str, str] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()

@@ -23,6 +23,7 @@ STRENGTH: Mapping[str, int] = {"planned": 0, "kinematic": 1, "physics": 2, "emul
 """How much an evidence counts; only `hardware` says something of a real table."""
 SHARED = (
     "schema", "lab", "parent", "cause", "evidence", "seed", "operator", "calibration", "environment", "versions",
+    "bench",
 )  # fmt: skip
 """What runs have in common that are folded into one."""
 FOLD = "-fold"
@@ -114,6 +115,8 @@ class Run:
     by, and set-points that light finds, when the commit was made; of the last run that it brings. `files`: those beside
     this one. `planned` evidence never occurs: a run ran.
 
+    `bench`: the bench that it was on: `sim`, `emulated`, `hardware`, or LAB/BENCH of a coordinator.
+
     `folded`: what this run was put together from when it was committed, in the order in which it ran: of each the
     document, without what all of them have in common (`SHARED`). `pico.runs.folding` gives each back as it was.
     """
@@ -150,6 +153,7 @@ class Run:
     folded: tuple[Mapping[str, Any], ...] = ()
     unmet: tuple[str, ...] | None = None
     goals: Mapping[str, GoalStood] | None = None
+    bench: str | None = None
 
     @property
     def order(self) -> tuple[str, int, str]:
