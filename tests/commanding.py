@@ -53,10 +53,10 @@ def with_goals(lab: Path, goals: str) -> None:
 
 
 @contextmanager
-def a_run_goes_on(root: Path, what: str) -> Iterator[None]:
+def a_run_goes_on(root: Path, what: str, bench: str = "sim") -> Iterator[None]:
     """Hold the bench, in the midst of a run."""
-    mark = bench_at(root).folder / "run"
-    with BenchLock(bench_at(root)).held(what):
+    mark = bench_at(root, bench).folder / "run"
+    with BenchLock(bench_at(root, bench)).held(what):
         mark.write_text("20261123T120000Z-aaaaaa")
         yield
         mark.unlink()

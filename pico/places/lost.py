@@ -60,5 +60,6 @@ def _gone(bench: BenchPlace) -> Diagnostic:
 
 def _stayed(bench: BenchPlace, left: Path) -> Diagnostic:
     text = f"what PICO kept of the bench `{bench.name}` stayed in {left / FOLDER} when this lab was moved here"
-    hint = f"`mv {left / FOLDER} {bench.root}` brings it along; `pico --bench {bench.name} git attach` starts anew"
+    move = f"mkdir -p {bench.root / FOLDER} && mv {left / FOLDER / BENCHES} {bench.root / FOLDER}/"
+    hint = f"`{move}` brings it along; `pico --bench {bench.name} git attach` starts anew"
     return error("lost-bench", text, hint=hint)

@@ -131,7 +131,7 @@ def test_a_measurement_without_its_light_says_so_and_what_brings_it(guarded: Pat
 def test_after_a_move_the_light_comes_back_only_where_it_was_armed(guarded: Path, pico: Pico) -> None:
     assert pico("apply", "--yes").code == 0 and pico("laser", "arm", "laser", "-y").code == 0
     assert operations(pico("plan", "e1", "--json").data) == [("laser", "closed"), ("laser", "open")]
-    armings.forget(guarded, "laser")  # as if nobody ever had: it was opened by hand
+    armings.forget(bench_at(guarded), "laser")  # as if nobody ever had: it was opened by hand
     told = pico("plan", "e1", "--json").data
     assert operations(told) == [("laser", "closed")]
     assert any(d["code"] == "unarmed" and "is left shut" in d["summary"] for d in told["diagnostics"])

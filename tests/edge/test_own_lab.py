@@ -17,6 +17,7 @@ from pico.bench import updating
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge import own_lab
+from pico.edge.lease import attach
 from pico.edge.protocol import OwnLab
 from pico.history.examples.example import make_example
 
@@ -216,11 +217,14 @@ def test_what_git_does_not_hold_is_told_by_nothing(tmp_path: Path) -> None:
     assert own_lab.read(bench_at(tmp_path)) is not None
 
 
-def test_who_throws_the_whole_bench_away_gets_a_new_one(tmp_path: Path) -> None:
+def test_who_throws_the_whole_bench_away_is_told_before_anything_moves_and_may_begin_anew(tmp_path: Path) -> None:
     root = make_example("shel", tmp_path / "shel").root
     with Bench.open(root) as bench:
         bench.apply("e1")
     shutil.rmtree(root / ".pico")
     edit(root / "lab.yaml", "seed: 1", "seed: 2")
+    with Bench.open(root) as bench, pytest.raises(PicoError, match="what PICO kept of the bench `sim` is gone"):
+        bench.apply("e2")
+    attach(bench_at(root))
     with Bench.open(root) as bench:
         assert bench.setup.lab.sim.seed == 2 and bench.apply("e2").outcome == "done"

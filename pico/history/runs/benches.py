@@ -100,7 +100,7 @@ def later_elsewhere(place: Place) -> str:
     last = {one.name: _last(one) for one in other_benches(place, place.root)}
     with suppress(PicoError), remembered(place) as memory:
         mine = memory.last() if memory else None
-        later = {name: at for name, at in last.items() if at > (mine.started_at if mine else "")}
+        later = {name: at for name, at in last.items() if at and at >= (mine.started_at if mine else "")}
         return max(later, key=lambda name: later[name]) if later else ""
     return ""
 
