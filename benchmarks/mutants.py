@@ -326,14 +326,14 @@ def sampled(given: argparse.Namespace) -> list[Verdict]:
         return judged(workers, made, [matching(mutant, given.seconds) for mutant in made], texts)
 
 
-def safety(words: Sequence[str], kept: Path | None, seconds: float) -> int:
+def safety(words: Sequence[str], kept: Path | None, seconds: float, own_only: bool = False) -> int:
     """Plant every mutant of the safety group, or of the modules whose path contains a word, and print what became of
     them. Return the exit code: 3 if the quick tests of the own packages kill less than `KILLED` of them."""
     files, known = chosen(words), accepted()
     texts = {file: (ROOT / file).read_text() for file in files}
     every = [m for file in files for m in mutants(file, texts[file]) if belongs(m) and is_python(m.apply(texts[file]))]
     made = [m for m in every if key_of(m, texts[m.file]) not in known]
-    folders = sorted({folder for file in files for folder in (*SAFETY[file].own, *SAFETY[file].others)})
+    folders = sorted({folder for file in files for folder in (*SAFETY[file].own, *(() if own_only else SAFETY[file].others))})
     with running(folders) as workers:
         tests = mapped(workers, texts, kept)
 
@@ -346,7 +346,7 @@ def safety(words: Sequence[str], kept: Path | None, seconds: float) -> int:
             return judged(workers, these, [matching[m.file](m, seconds) for m in these], texts)
 
         own = all_judged(made, lambda file: SAFETY[file].own)
-        left = [v.mutant for v in own if v.outcome == "survived" and SAFETY[v.mutant.file].others]
+        left = [v.mutant for v in own if v.outcome == "survived" and SAFETY[v.mutant.file].others and not own_only]
         print("\n\nWhat the own package leaves, by other quick tests:", flush=True) if left else None
         others = all_judged(left, lambda file: SAFETY[file].others)
     killed_elsewhere = Counter(v.mutant.file for v in others if v.outcome != "survived")
@@ -421,9 +421,10 @@ def main() -> int:
     parser.add_argument("--only", default="", help="of those made by hand, those that mean this")
     parser.add_argument("--safety", action="store_true", help="every mutant of what decides about light and motion")
     parser.add_argument("--module", nargs="+", default=[], help="of those, the modules whose path contains a word")
+    parser.add_argument("--own", action="store_true", help="only the quick tests of the own packages")
     given = parser.parse_args()
     if given.safety:
-        return safety(given.module, given.map, given.seconds)
+        return safety(given.module, given.map, given.seconds, given.own)
     verdicts = by_hand(given.only) if given.by_hand else sampled(given)
     print(file=sys.stderr)
     if given.by_hand:

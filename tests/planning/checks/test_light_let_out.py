@@ -7,6 +7,7 @@ unknown counts as open and on, a power as the highest that it has or gets; above
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -135,8 +136,6 @@ def test_a_laser_is_dark_only_if_it_is_gone_or_read_back_off_or_closed(
     if presence == "absent":
         del parts["laser"]
     else:
-        from dataclasses import replace
-
         parts["laser"] = replace(parts["laser"], presence=presence)  # type: ignore[arg-type]
     seen = Observation(backend="sim", components=parts)
     values = {k: v for k, v in {"emission": emission, "shutter": shutter}.items() if v is not None}
@@ -175,6 +174,12 @@ def test_all_that_operations_do_together_counts_whatever_their_order() -> None:
     for order in (ops, ops[::-1], [*ops[3:], *ops[:3]]):
         assert let_out(SETUP, seen, order) == {"laser": "3B"}
     assert let_out(SETUP, seen, ops[3:]) == {} == let_out(SETUP, seen, [ops[4], ops[5]])
+
+
+def test_what_is_raised_before_it_is_shut_was_let_out() -> None:
+    seen = observed(laser={**LIT, "power": 0.3})
+    for dark in (set_to("laser", "shutter", "closed", "b"), set_to("laser", "emission", False, "b")):
+        assert let_out(SETUP, seen, [set_to("laser", "power", 4.0, "a"), dark]) == {"laser": "3R"}
 
 
 def test_only_the_laser_that_is_touched_is_let_out_by_its_own_shutter() -> None:
@@ -224,6 +229,10 @@ def test_what_ends_nobody_knows_where_counts_as_the_top_of_its_range(primitive: 
     op = Operation(id="op1", primitive=primitive, component="laser", arguments={"tunable": "power"},
                    reason=Reason(kind="asked"))  # fmt: skip
     assert let_out(SETUP, seen, [op]) == {"laser": at(STRONGEST)}
+    said = replace(op, arguments={"tunable": "power", "to": 0.1})
+    assert let_out(SETUP, seen, [said]) == {"laser": at(STRONGEST)}, "whatever it says of where it ends"
+    bare = replace(op, arguments={})
+    assert let_out(SETUP, observed(laser={**LIT, "power": 4.0}), [bare]) == {"laser": "3R"}
     shut = observed(laser={"shutter": "closed", "power": 4.0})
     op = Operation(id="op1", primitive=primitive, component="laser", arguments={"tunable": "shutter"},
                    reason=Reason(kind="asked"))  # fmt: skip
