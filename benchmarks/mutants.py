@@ -333,7 +333,9 @@ def safety(words: Sequence[str], kept: Path | None, seconds: float, own_only: bo
     texts = {file: (ROOT / file).read_text() for file in files}
     every = [m for file in files for m in mutants(file, texts[file]) if belongs(m) and is_python(m.apply(texts[file]))]
     made = [m for m in every if key_of(m, texts[m.file]) not in known]
-    folders = sorted({folder for file in files for folder in (*SAFETY[file].own, *(() if own_only else SAFETY[file].others))})
+    folders = sorted(
+        {folder for file in files for folder in (*SAFETY[file].own, *(() if own_only else SAFETY[file].others))}
+    )
     with running(folders) as workers:
         tests = mapped(workers, texts, kept)
 

@@ -78,7 +78,9 @@ def observed(
     parts = {}
     for name, pose in POSES.items():
         own = {**DARK.get(name, {}), **values.get(name, {})}
-        read = {k: v if isinstance(v, ObservedValue) else ObservedValue(value=v) for k, v in own.items() if v is not None}
+        read = {
+            k: v if isinstance(v, ObservedValue) else ObservedValue(value=v) for k, v in own.items() if v is not None
+        }
         parts[name] = ObservedComponent(pose=pose, values=read)
     for name in without:
         parts[name] = replace(parts[name], presence="missing", pose=None)

@@ -79,6 +79,16 @@ def test_a_beam_counts_as_closed_where_it_is_in_every_order(operations: list[Ope
 MOVE = op("lens", "m")
 
 
+@pytest.mark.parametrize("order", list(itertools.permutations(range(4))))
+@pytest.mark.parametrize("closed", [True, False])
+def test_an_opening_that_is_closed_again_before_leaves_the_beam_closed(order: Sequence[int], closed: bool) -> None:
+    chain = [op("open", "o", ("x",)), op("close", "c", ("o",)), op("lens", "m", ("c",)), op("other", "x")]
+    seen = observed(laser={"shutter": "closed" if closed else "open"})
+    assert open_beams(SETUP, [chain[n] for n in order], seen, ["laser"])["m"] == []
+    broken = [replace(chain[n], after=()) if chain[n].id == "c" else chain[n] for n in order]
+    assert open_beams(SETUP, broken, seen, ["laser"])["m"] == ["laser"], "it may be opened last"
+
+
 @pytest.mark.parametrize("emission", [True, False, UNKNOWN, commanded(False), None])
 @pytest.mark.parametrize("shutter", ["open", "closed", UNKNOWN, commanded("closed"), None])
 def test_only_what_was_read_back_closes_a_beam(emission: Any, shutter: Any) -> None:

@@ -67,6 +67,10 @@ def test_only_parts_with_a_sample_count_and_only_beams_that_come_to_them() -> No
     gone = observed(laser=ON | {"power": 2.0}, without=("holder",))
     assert dose.powers(SETUP, gone) == {"holder": 0.0}
     assert dose.powers(SETUP, observed(laser=ON | {"power": 2.0}, without=("laser",))) == {"holder": 0.0}
+    for laser, falls in (({"power": 2.0}, 0.0), (ON | {"power": 2.0}, 2.0)):
+        seen = observed(laser=laser)
+        beside = {"stranger": replace(seen.components["cam"], pose=carried()), **seen.components}
+        assert dose.powers(SETUP, replace(seen, components=beside)) == {"holder": pytest.approx(falls)}
 
 
 @pytest.mark.parametrize(("spent", "more", "over"), [
@@ -107,14 +111,18 @@ def test_operations_add_up_in_the_order_of_their_starts_with_the_pauses_between_
 
 
 def test_what_only_darkens_is_never_refused_and_what_brightens_on_the_way_is() -> None:
-    seen, spent = observed(laser=ON | {"power": 2.0}), [one(9.9, 2.0)]
+    seen = observed(laser=ON | {"power": 2.0})
+    spent = [one(9.9, dose.powers(SETUP, seen)["holder"])]
     assert not dose.refused(SETUP, seen, spent, timed([(SHUT, 0.0, 5.0)]))
     assert not dose.refused(SETUP, seen, spent, timed([(power(1.0), 0.0, 5.0), (SHUT, 5.0, 5.0)]))
+    assert not dose.refused(SETUP, seen, spent, timed([(ELSE, 0.0, 5.0), (SHUT, 5.0, 5.0)])), "no brighter than now"
     assert dose.refused(SETUP, seen, spent, timed([(power(1.0), 0.0, 5.0)])), "it stays lit"
     assert dose.refused(SETUP, seen, spent, timed([(power(3.0), 0.0, 5.0), (SHUT, 5.0, 5.0)])), "brighter on the way"
     assert dose.refused(SETUP, seen, spent, timed([(ELSE, 0.0, 5.0)]))
     assert not dose.refused(SETUP, seen, spent, [])
     dark = observed(laser={"power": 2.0})
+    by_hand = replace(OPENED, primitive="operator")
+    assert dose.refused(SETUP, dark, [one(1.0)], timed([(by_hand, 0.0, 5.0)])), "opened by a person"
     assert not dose.refused(SETUP, dark, [one(99.0)], timed([(ELSE, 0.0, 5.0)])), "nothing falls on it"
     assert dose.refused(SETUP, dark, [one(99.0)], timed([(OPENED, 0.0, 5.0), (SHUT, 5.0, 1.0)]))
 
@@ -143,6 +151,8 @@ def test_a_sample_that_is_carried_into_or_out_of_the_beam_is_followed(into: bool
     falls = 2.0 * ((0 if into and out else 4.0) + (0 if out else 4.0))
     found = dose.refused(SETUP, start, [one(5.0, power_now)], ops)
     assert bool(found) is (5.0 + falls > 10.0 and not out)
+    placed = [replace(op, primitive="operator", robot=None) if op.component == "holder" else op for op in ops]
+    assert bool(dose.refused(SETUP, start, [one(5.0, power_now)], placed)) is bool(found), "by hand, too"
     by_hand = Operation(id="h", primitive="park", component="holder", reason=Reason(kind="asked"), seconds=1.0)
     stranger = replace(set_to("laser", "shutter", "open"), component="nobody", seconds=9.0)
     assert not dose.refused(SETUP, aside, [one(5.0)], [by_hand, stranger])

@@ -135,9 +135,11 @@ def test_an_arming_counts_from_its_beginning_to_its_end_on_its_bench_while_its_p
 def test_a_role_that_was_taken_away_ends_an_arming_but_not_one_whose_hours_were_shortened() -> None:
     one = given(0.0, 8.0)
     assert not arming.over(SETUP, one, at(1))
-    shorter = lab({"user": replace(ROLES["user"], hours=1.0)})
+    shorter = lab({"user": replace(ROLES["user"], hours=0.5)})
     assert not arming.over(shorter, one, at(1))
-    assert arming.over(lab({}), one, at(1)) == arming.over(SETUP, replace(one, role="x"), at(1)).replace(" x ", " user ")
+    assert arming.over(lab({}), one, at(1)) == arming.over(SETUP, replace(one, role="x"), at(1)).replace(
+        " x ", " user "
+    )
     assert arming.over(bench(), one, at(1)) == "Ada is no user for class 3R any more"
 
 

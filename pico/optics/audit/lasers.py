@@ -53,7 +53,9 @@ def _may_be(
         return (otherwise if found is None else found,)
     numbers = (own,) if _number(own) else tunable.range or (math.inf,)
     known = tuple(
-        float(convert(f"{n!r} {tunable.unit}", unit)) if tunable.unit not in ("", unit) and math.isfinite(n) else float(n)
+        float(convert(f"{n!r} {tunable.unit}", unit))
+        if tunable.unit not in ("", unit) and math.isfinite(n)
+        else float(n)
         for n in numbers
     )
     beyond = math.nextafter(VISIBLE[1], math.inf)
