@@ -63,7 +63,7 @@ BAR = 0.15
 KILLED = 0.95
 """The share of the mutants of the safety group that the quick tests of their own packages have to kill."""
 PROCESSES = 2
-SECONDS = 20.0
+SECONDS, ALL = 20.0, 90.0
 
 Tests = dict[str, dict[str, Any]]
 """For each test, by pytest's name, its CPU `seconds` and the `lines` that it executes, by file."""
@@ -323,7 +323,7 @@ def sampled(given: argparse.Namespace) -> list[Verdict]:
     made = drawn(texts, given.seed, given.count)
     with running(given.tests) as workers:
         matching = Matching(mapped(workers, texts, given.map), texts)
-        return judged(workers, made, [matching(mutant, given.seconds) for mutant in made], texts)
+        return judged(workers, made, [matching(mutant, given.seconds or SECONDS) for mutant in made], texts)
 
 
 def safety(words: Sequence[str], kept: Path | None, seconds: float, own_only: bool = False) -> int:
@@ -417,7 +417,9 @@ def main() -> int:
     parser.add_argument("--tests", nargs="+", default=["tests"], help="test files and folders to choose from")
     parser.add_argument("--map", type=Path, help="a file that keeps which test executes what")
     parser.add_argument(
-        "--seconds", type=float, default=SECONDS, help="CPU seconds of tests that a mutant meets at most"
+        "--seconds",
+        type=float,
+        help=f"CPU seconds of tests that a mutant meets at most: {SECONDS:g}, {ALL:g} with --safety",
     )
     parser.add_argument("--by-hand", action="store_true", help="the mutants made by hand")
     parser.add_argument("--only", default="", help="of those made by hand, those that mean this")
@@ -426,7 +428,7 @@ def main() -> int:
     parser.add_argument("--own", action="store_true", help="only the quick tests of the own packages")
     given = parser.parse_args()
     if given.safety:
-        return safety(given.module, given.map, given.seconds, given.own)
+        return safety(given.module, given.map, given.seconds or ALL, given.own)
     verdicts = by_hand(given.only) if given.by_hand else sampled(given)
     print(file=sys.stderr)
     if given.by_hand:

@@ -29,6 +29,8 @@ def record(phase: Any, seq: int = 1, key: str = "other/1/1", token: int = LEASE,
 
 def test_the_margins_of_a_lease_are_kept() -> None:
     assert (RATE, REACHES, OFFLINE) == (0.996, 0.2, 60.0)
+    assert Memory() == Memory(fenced=0, taken=0, stopped=frozenset(), records={})
+    assert Gate() == Gate(Memory(), pending=0, deadline=-math.inf, running="", budget=0.0)
 
 
 @pytest.mark.parametrize("token", [4, 5, 6])
@@ -118,7 +120,7 @@ def test_a_command_that_is_taken_on_runs_until_it_ends() -> None:
 
 @pytest.mark.parametrize("token", [4, 5, 6, 7, 8])
 @pytest.mark.parametrize("pending", [0, 7])
-@pytest.mark.parametrize("left", [0.0, -1.0, 10.0, 100.0])
+@pytest.mark.parametrize("left", [0.0, -1.0, 0.5, 10.0, 100.0])
 def test_what_the_coordinator_says_drains_for_a_later_lease_or_extends_this_one(
     token: int, pending: int, left: float
 ) -> None:

@@ -8,11 +8,11 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from examples import examples
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from laser_lab import UNKNOWN, bench, carry, commanded, observed, set_to
 
+from examples import examples
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.policy.beams import open_beams

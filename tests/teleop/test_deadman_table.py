@@ -66,6 +66,16 @@ def test_a_frame_counts_in_time_of_a_press_that_goes_on_or_is_fresh(
         assert after.pressed
 
 
+def test_a_frame_counts_until_silence_is_over_to_the_last() -> None:
+    it, why = Gate().hear(Frame(seq=1, seen=0.0, press=1), SILENCE)
+    assert why == "" and it.pending is not None
+    it = Gate(1, 0.0, 1, 0.0)
+    assert it.hear(Frame(seq=2, seen=SILENCE, press=1), SILENCE)[1] == "" and not it.lapsed(SILENCE)
+    late = math.nextafter(SILENCE, 1.0)
+    assert it.hear(Frame(seq=2, seen=late, press=1), late)[1] == "lapsed" and it.lapsed(late)
+    assert Gate().hear(Frame(seq=1, seen=0.0, press=1), late)[1] == "late"
+
+
 @pytest.mark.parametrize("since", [0.0, 0.04, 0.06, 0.19, 0.21])
 @pytest.mark.parametrize("seconds", [0.001, STEP_SECONDS, SILENCE, 1.0])
 @pytest.mark.parametrize("pending", [True, False])
@@ -90,6 +100,7 @@ def test_a_press_lapses_by_silence_and_stays_over(press: int, over: int, since: 
 
 def test_at_first_nothing_is_pressed_or_authorized() -> None:
     it = Gate()
+    assert (it.seq, it.heard, it.press, it.held, it.over, it.pending) == (0, -math.inf, 0, -math.inf, 0, None)
     assert not it.pressed and not it.lapsed(NOW) and it.authorized(NOW, 0.01) is None and it.silent(NOW) == math.inf
     assert it.hear(frame(seq=0), NOW) == (it, "stale") and it.hear(frame(seq=1, press=1), NOW)[1] == ""
     assert it.hear(frame(seq=1, press=-1), NOW)[1] == "lapsed"

@@ -118,11 +118,11 @@ def test_inputs_are_asked_again_and_again_until_one_trips(monkeypatch: pytest.Mo
 
     async def later() -> Any:
         waiting = asyncio.create_task(until_tripped(inputs(one), frozenset({"door"})))
-        while one.asked < 4:
+        while one.asked < 4 and not waiting.done():
             await asyncio.sleep(0)
         assert not waiting.done()
         one.state = SafetyState(safe=False, age=0.0)
-        return await waiting
+        return await asyncio.wait_for(waiting, 5)
 
     assert asyncio.run(later()).address == "it"
 
