@@ -1,4 +1,4 @@
-"""Whether an object is intact: only its own bytes are, what is damaged is set aside, and what cannot be read is told."""
+"""Whether an object is intact: only its own bytes are, what is damaged is set aside, what cannot be read is told."""
 
 from __future__ import annotations
 

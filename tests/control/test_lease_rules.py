@@ -8,6 +8,7 @@ whoever takes it over gives a reason; each token is higher than any that was eve
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -304,22 +305,17 @@ DEED = st.tuples(
 
 def done(row: Lease, deed: str, who: Asker, token: int, job: str, now: float, met: bool) -> Turn:
     """Do a deed in truth."""
-    match deed:
-        case "ask":
-            return leases.asked(row, who, now, met)
-        case "renew":
-            return leases.renewed(row, who.session, token, now, met)
-        case "keep":
-            return leases.kept(row, job, now)
-        case "release":
-            return leases.released(row, who.session, token, now, met)
-        case "steal":
-            return leases.stolen(row, who, "because", now, met)
-        case "hear":
-            return leases.heard(row, token, now)
-        case "leave":
-            return leases.detached(row, who.session, token, job)
-    return leases.promoted(row, now, met)
+    deeds_: dict[str, Callable[[], Turn]] = {
+        "ask": lambda: leases.asked(row, who, now, met),
+        "renew": lambda: leases.renewed(row, who.session, token, now, met),
+        "keep": lambda: leases.kept(row, job, now),
+        "release": lambda: leases.released(row, who.session, token, now, met),
+        "steal": lambda: leases.stolen(row, who, "because", now, met),
+        "hear": lambda: leases.heard(row, token, now),
+        "leave": lambda: leases.detached(row, who.session, token, job),
+        "settle": lambda: leases.promoted(row, now, met),
+    }
+    return deeds_[deed]()
 
 
 def follow(model: Model, deed: str, who: Asker, token: int, job: str, now: float, met: bool) -> None:

@@ -384,8 +384,10 @@ def test_a_ledger_counts_the_brighter_of_then_and_now(before: float, now: float,
     assert dose.Ledger().doses(held(None))[0].budget is None and dose.Ledger().doses(held())[0].spent == 0.0
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "{}", '{"at": null, "spent": {}, "power": {}}', "null",
-                                  '{"at": 1, "spent": {"a": "x"}, "power": {}}', '{"at": 1, "spent": 3, "power": {}}'])  # fmt: skip
+@pytest.mark.parametrize("text", [
+    "", "{", "[]", "{}", "null", '{"at": null, "spent": {}, "power": {}}',
+    '{"at": 1, "spent": {"a": "x"}, "power": {}}', '{"at": 1, "spent": 3, "power": {}}',
+])  # fmt: skip
 def test_a_ledger_that_cannot_be_read_begins_anew(tmp_path: Path, text: str) -> None:
     assert dose.read(tmp_path) == dose.Ledger()
     dose.counted(held(), tmp_path, replace(observed(laser=LIT), time=5.0))

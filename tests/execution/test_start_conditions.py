@@ -39,7 +39,8 @@ def plan(
 def able(**changes: Any) -> Capabilities:
     usual: dict[str, Any] = {
         "name": "sim", "fidelity": "kinematic", "evidence": "kinematic", "lab_digest": SETUP.digest(),
-        "primitives": frozenset({"move", "set", "measure"}), "robots": ("arm1",), "measurables": frozenset({"cam.image"}),
+        "primitives": frozenset({"move", "set", "measure"}), "robots": ("arm1",),
+        "measurables": frozenset({"cam.image"}),
     }  # fmt: skip
     return Capabilities(**(usual | changes))
 

@@ -49,9 +49,11 @@ ELSE = set_to("cam", "exposure", 3)
 
 
 @pytest.mark.parametrize(("laser", "falls"), [
-    (ON | {"power": 2.0}, 2.0), (ON | {"power": 0.5}, 0.5), ({"emission": True, "shutter": "closed", "power": 2.0}, 0.0),
-    ({"emission": False, "shutter": "open", "power": 2.0}, 0.0), ({"emission": UNKNOWN, "shutter": "open", "power": 2.0},
-    2.0), ({"emission": True, "shutter": commanded("closed"), "power": 2.0}, 2.0),
+    (ON | {"power": 2.0}, 2.0), (ON | {"power": 0.5}, 0.5),
+    ({"emission": True, "shutter": "closed", "power": 2.0}, 0.0),
+    ({"emission": False, "shutter": "open", "power": 2.0}, 0.0),
+    ({"emission": UNKNOWN, "shutter": "open", "power": 2.0}, 2.0),
+    ({"emission": True, "shutter": commanded("closed"), "power": 2.0}, 2.0),
     ({"emission": UNKNOWN, "shutter": UNKNOWN, "power": 2.0}, 2.0),
 ])  # fmt: skip
 def test_all_of_the_beam_falls_on_the_sample_unless_the_source_is_known_to_be_dark(laser: Any, falls: float) -> None:

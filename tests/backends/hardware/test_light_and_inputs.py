@@ -1,4 +1,4 @@
-"""What a real bench does about light: which safety inputs count for what, what closes, and what stops short of a goal."""
+"""What a real bench does about light: which safety inputs count for what, what closes, what stops short of a goal."""
 
 from __future__ import annotations
 
@@ -303,7 +303,7 @@ def test_nothing_is_driven_beyond_its_range_or_without_a_device(to: Any) -> None
     with pytest.raises(Failed):
         drive(turning(), device, set_to("holder", "height", 3.0))
     assert device.told == []
-    with pytest.raises(Failed, match="no device of this bench sets holder.angle"):
+    with pytest.raises(Failed, match=r"no device of this bench sets holder\.angle"):
         asyncio.run(driven(turning(), Instruments(), set_to("holder", "angle", 3.0), lambda s: asyncio.sleep(0)))
 
 

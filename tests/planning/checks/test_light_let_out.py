@@ -154,8 +154,8 @@ def test_a_power_counts_as_the_greater_of_before_and_after(before: float, to: fl
     assert found == ({"laser": at(max(before, to))} if to > 0 else {})
 
 
-@pytest.mark.parametrize(("emission", "shutter"), list(itertools.product((True, False, UNKNOWN, None), ("open", "closed",
-                                                                    UNKNOWN, commanded("closed"), None))))  # fmt: skip
+@pytest.mark.parametrize("emission", [True, False, UNKNOWN, None])
+@pytest.mark.parametrize("shutter", ["open", "closed", UNKNOWN, commanded("closed"), None])
 @pytest.mark.parametrize("change", ["open", "emit", "power"])
 def test_a_laser_is_let_out_where_nothing_is_known_to_keep_it_dark(emission: Any, shutter: Any, change: str) -> None:
     op = {"open": set_to("laser", "shutter", "open"), "emit": set_to("laser", "emission", True),

@@ -1,4 +1,4 @@
-"""How often somebody may ask: `burst` at once, `per_second` on the long run, and what is saved up is `burst` at most."""
+"""How often somebody may ask: `burst` at once, `per_second` on the long run, and `burst` at most is saved up."""
 
 from __future__ import annotations
 
