@@ -193,7 +193,7 @@ def _walk(node: ast.AST, place: _Place = _Place()) -> Iterator[tuple[ast.AST, in
                 yield from _walk(child, place)
         elif isinstance(child, ast.ClassDef):
             yield from _walk(child, replace(place, within=f"{place.within}{child.name}."))
-        elif isinstance(child, ast.FunctionDef):
+        elif isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef):
             for default in (*child.args.defaults, *child.args.kw_defaults):
                 if default:
                     yield from _walk(default, replace(place, name=child.name))

@@ -93,7 +93,7 @@ def _after(seen: Observation, op: Operation) -> Observation | None:
         return None
     to, tunable = op.arguments.get("to"), op.arguments.get("tunable")
     if op.primitive in ("set", "operator") and tunable is not None:
-        return with_value(seen, op.component, str(tunable), to)
+        return with_value(seen, op.component, str(tunable), op.arguments["to"])
     if isinstance(to, Mapping) and "pose" in to:  # by an arm or by hand
         moved = replace(part, pose=Pose(**to["pose"]))
         return replace(seen, components={**seen.components, op.component: moved})

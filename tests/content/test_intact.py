@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import hashlib
+import os
+import time
 from pathlib import Path
 from typing import Any
 
@@ -97,3 +99,30 @@ def test_an_object_larger_than_a_chunk_is_read_to_its_end(tmp_path: Path, monkey
     store.path(name).chmod(0o644)
     store.path(name).write_bytes(b"012345678X")
     assert not store.is_intact(name)
+
+
+@pytest.mark.parametrize("needed", [True, False])
+@pytest.mark.parametrize("again", [True, False])
+@pytest.mark.parametrize("days", [0.9, 1.1])
+def test_a_damaged_copy_goes_after_a_day_unless_it_is_all_that_is_left_of_what_is_needed(
+    tmp_path: Path, needed: bool, again: bool, days: float
+) -> None:
+    store = kept(tmp_path, b"damaged")
+    assert not store.is_intact(NAME)
+    if again:
+        store.put(DATA)
+    damaged = tmp_path / "damaged" / NAME
+    then = time.time() - days * 86400
+    os.utime(damaged, (then, then))
+    goes = days > 1 and not (needed and not again)
+    assert store.sweep({NAME} if needed else ()) == (len(b"damaged") if goes else 0)
+    assert damaged.exists() is not goes and store.has(NAME) is again
+
+
+def test_the_age_of_an_object_is_since_it_was_last_put(tmp_path: Path) -> None:
+    store = kept(tmp_path, DATA)
+    then = time.time() - 500.0
+    os.utime(store.path(NAME), (then, then))
+    assert 499.0 < store.age(NAME) < 520.0 and store.remove(NAME, older=1000.0) == 0 and store.has(NAME)
+    store.put(DATA)
+    assert 0.0 <= store.age(NAME) < 20.0

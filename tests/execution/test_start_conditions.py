@@ -14,8 +14,15 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.execution.checks import require_able, require_allowed, require_applicable, require_current
 from pico.execution.stale import edited, require_fresh
 from pico.model.arming import Licence
-from pico.model.lab import PolicyRule
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, Uncertainty, live_state
+from pico.model.lab import Part, PolicyRule
+from pico.model.observation import (
+    Observation,
+    ObservedComponent,
+    ObservedRobot,
+    ObservedValue,
+    Uncertainty,
+    live_state,
+)
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
@@ -99,7 +106,7 @@ def test_what_kernels_make_of_a_picture_needs_the_picture() -> None:
     look = Operation(id="l", primitive="measure", component="cam", arguments={"measurable": "image | centroid"},
                      reason=Reason(kind="asked"))  # fmt: skip
     require_able(plan(look), able())
-    with pytest.raises(PicoError, match="has nothing that measures it") as caught:
+    with pytest.raises(PicoError, match=": sim has nothing that measures it") as caught:
         require_able(plan(look), able(measurables=frozenset({"cam.dark", "laser.monitor"})))
     assert caught.value.diagnostics[0].hint == "of cam it measures: dark"
     with pytest.raises(PicoError, match="has nothing that measures it") as caught:
@@ -231,6 +238,10 @@ def test_a_hand_holds_what_the_plan_assumes(holding: Any, held: bool, robot: boo
     else:
         with pytest.raises(PicoError, match=f"arm1 holds {(robot and holding) or 'nothing'}"):
             require_current(SETUP, plan(op), seen)
+        away = replace(op, arguments={**op.arguments, "from": {**op.arguments["from"], "pose": as_json(Pose(1, 2, 3))}})
+        with pytest.raises(PicoError) as caught:
+            require_current(SETUP, plan(away), seen)
+        assert len(caught.value.diagnostics) == 1, "where it was is nothing to compare then"
 
 
 def test_only_the_first_pick_of_a_part_is_looked_at_and_parts_by_hand_not() -> None:
@@ -269,6 +280,35 @@ def test_a_value_is_as_the_plan_assumes_within_its_tolerance(was: float, now: An
 def test_a_plan_that_was_judged_under_other_light_is_stale(light: Any) -> None:
     made = plan(set_to("cam", "exposure", 3))
     assert refused(require_fresh, SETUP, made, observed(laser=light)) == (ExitCode.STALE, ["stale"])
+
+
+def test_how_far_a_part_was_moved_is_told_in_both_directions() -> None:
+    at = POSES["holder"]
+    seen = observed()
+    part = ObservedComponent(pose=Pose(at.x + 3.0, at.y - 4.0, 350.0))
+    seen = replace(seen, components={**seen.components, "holder": part})
+    with pytest.raises(PicoError, match=r"holder changed by 5 mm, 10°, tolerance 0\.5 mm, 0\.5°: \(503, 416, 350°\)"):
+        require_fresh(SETUP, plan(), seen)
+
+
+def test_what_comes_with_a_part_is_not_told_beside_it() -> None:
+    more = {**SETUP.lab.inventory, "block": Part(type="beam_block", home="storage/a1")}
+    catalog = {**SETUP.catalog, "beam_block": replace(SETUP.type_of("holder"), name="beam_block")}
+    other = Setup(lab=replace(SETUP.lab, inventory=more), catalog=catalog)
+    assert edited(SETUP, other) == ["inventory.block added"] and edited(other, SETUP) == ["inventory.block removed"]
+
+
+def test_a_value_of_a_part_that_was_seen_badly_counts_all_the_same() -> None:
+    home = SETUP.lab.slots["storage/a1"].pose
+    seen = observed(cam={"exposure": 3.0})
+    badly = replace(seen.components["cam"], pose=home, uncertainty=Uncertainty(position=5.0, yaw=5.0))
+    seen = replace(seen, components={**seen.components, "cam": badly})
+    made = plan(set_to("cam", "exposure", 3), base=seen)
+    require_fresh(SETUP, made, seen)
+    brighter = replace(badly, values={"exposure": ObservedValue(value=9.0)})
+    now = replace(seen, components={**seen.components, "cam": brighter})
+    with pytest.raises(PicoError, match=r"cam\.exposure changed"):
+        require_fresh(SETUP, made, now)
 
 
 def test_a_plan_of_another_lab_is_stale_and_what_was_edited_is_told() -> None:
