@@ -246,7 +246,7 @@ class Matching:
 
     def __call__(self, mutant: Mutant, budget: float) -> tuple[list[str], float]:
         """Return the tests that a mutant meets, in order, and their CPU seconds."""
-        found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name) or self.any[mutant.file]
+        found = self._of_function(mutant) if mutant.function else self._beside(mutant)
         near = self.near(mutant.file)
 
         def cost(name: str) -> tuple[float, str]:
@@ -263,6 +263,12 @@ class Matching:
     def _of_function(self, mutant: Mutant) -> set[str]:
         lines = range(mutant.first, mutant.line + 1)
         return self.of[mutant.file].union(*(self.at[mutant.file, line] for line in lines))
+
+    def _beside(self, mutant: Mutant) -> set[str]:
+        """Return the tests that may notice another constant: a test that only reads it executes no line."""
+        executing = self._of_name(mutant.name) or self.any[mutant.file]
+        files = {name.partition("::")[0] for name in executing}
+        return executing | {name for name in self.tests if name.partition("::")[0] in files}
 
     def _of_name(self, name: str) -> set[str]:
         word = re.compile(rf"\b{re.escape(name)}\b")

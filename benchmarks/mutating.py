@@ -140,7 +140,9 @@ class _Module:
             case ast.Return(value=ast.expr() as value):
                 truth = isinstance(value, ast.Compare | ast.BoolOp | ast.UnaryOp)
                 yield from (self._whole("return", value, new) for new in (("True", "False") if truth else ("None",)))
-            case ast.Expr(value=ast.Call() | ast.Await()) | ast.AugAssign() | ast.Raise() | ast.Continue() | ast.Break():
+            case (
+                ast.Expr(value=ast.Call() | ast.Await()) | ast.AugAssign() | ast.Raise() | ast.Continue() | ast.Break()
+            ):
                 yield self._whole("deleted", node, "pass")
             case ast.If() | ast.IfExp():
                 yield from (self._whole("condition", node.test, new) for new in ("True", "False"))
