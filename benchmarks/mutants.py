@@ -44,7 +44,7 @@ from pathlib import Path
 from typing import Any
 
 from mutants_by_hand import BY_HAND
-from mutants_safety import SAFETY, accepted, belongs, chosen, key_of
+from mutants_safety import SAFETY, accepted, belongs, chosen, key_of, table_of
 from mutating import Mutant, is_python, mutants, planted
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -358,30 +358,11 @@ def safety(words: Sequence[str], kept: Path | None, seconds: float, own_only: bo
         print("\n\nWhat the own package leaves, by other quick tests:", flush=True) if left else None
         others = all_judged(left, lambda file: SAFETY[file].others)
     killed_elsewhere = Counter(v.mutant.file for v in others if v.outcome != "survived")
-    print("\n" + _safety_table(own, killed_elsewhere, Counter(m.file for m in every)))
+    print("\n" + table_of(own, killed_elsewhere, Counter(m.file for m in every)))
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"{used.ru_utime + used.ru_stime:.0f} CPU seconds in all")
     survived = sum(v.outcome == "survived" for v in own)
     return 3 if survived > (1 - KILLED) * len(own) else 0
-
-
-def _safety_table(own: Sequence[Verdict], elsewhere: Mapping[str, int], every: Mapping[str, int]) -> str:
-    """Return a line a module: mutants, accepted ones, those killed by its own package, by others only, and by none."""
-    columns = ("mutants", "accepted", "own kill", "others", "survive", "CPU s")
-    lines = [f"{'module':<40}" + "".join(f"{c:>9}" for c in columns) + f"{'killed':>9}"]
-    rows = []
-    for file in SAFETY:
-        mine = [v for v in own if v.mutant.file == file]
-        left = sum(v.outcome == "survived" for v in mine)
-        row = every.get(file, 0), every.get(file, 0) - len(mine), len(mine) - left, elsewhere.get(file, 0)
-        rows += [(file, (*row, left - row[3], sum(v.cpu for v in mine)))] if row[0] else []
-    rows.append(("all", tuple(sum(row[n] for _, row in rows) for n in range(6))))
-    for name, row in rows:
-        share = row[2] / ((row[0] - row[1]) or 1)
-        lines.append(
-            f"{name:<40}" + "".join(f"{n:>9}" for n in row[:5]) + f"{row[5]:>9.1f}{share:>9.1%}"
-        )  # fmt: skip
-    return "\n".join(lines)
 
 
 def by_hand(only: str) -> list[Verdict]:

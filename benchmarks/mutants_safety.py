@@ -8,9 +8,10 @@ told from the original (or only by a text, a delay or the speed), each with the 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Protocol
 
 from mutating import Mutant
 
@@ -107,3 +108,35 @@ def chosen(words: Iterable[str]) -> list[str]:
         if not any(word in module for module in SAFETY):
             raise SystemExit(f"no module of the safety group contains `{word}`: {', '.join(SAFETY)}")
     return [module for module in SAFETY if not words or any(word in module for word in words)]
+
+
+class Judged(Protocol):
+    """What became of a mutant, and in how many CPU seconds."""
+
+    @property
+    def mutant(self) -> Mutant: ...
+
+    @property
+    def outcome(self) -> str: ...
+
+    @property
+    def cpu(self) -> float: ...
+
+
+def table_of(own: Sequence[Judged], elsewhere: Mapping[str, int], every: Mapping[str, int]) -> str:
+    """Return a line a module: mutants, accepted ones, those killed by its own package, by others only, and by none."""
+    columns = ("mutants", "accepted", "own kill", "others", "survive", "CPU s")
+    lines = [f"{'module':<40}" + "".join(f"{c:>9}" for c in columns) + f"{'killed':>9}"]
+    rows = []
+    for file in SAFETY:
+        mine = [v for v in own if v.mutant.file == file]
+        left = sum(v.outcome == "survived" for v in mine)
+        row = every.get(file, 0), every.get(file, 0) - len(mine), len(mine) - left, elsewhere.get(file, 0)
+        rows += [(file, (*row, left - row[3], sum(v.cpu for v in mine)))] if row[0] else []
+    rows.append(("all", tuple(sum(row[n] for _, row in rows) for n in range(6))))
+    for name, row in rows:
+        share = row[2] / ((row[0] - row[1]) or 1)
+        lines.append(
+            f"{name:<40}" + "".join(f"{n:>9}" for n in row[:5]) + f"{row[5]:>9.1f}{share:>9.1%}"
+        )  # fmt: skip
+    return "\n".join(lines)
