@@ -191,6 +191,76 @@ def test_a_mount_that_is_stopped_goes_nowhere_any_more() -> None:
     assert asyncio.run(go()) == "device-stopped" and "st" in line.sent
 
 
+@pytest.mark.parametrize("before", [
+    [], ["5PO00001000"], ["2GS00"], ["2GS09"], ["2GJ00000001"], ["2PO0000"], ["nonsense"], [""],
+    ["5GS02", "5PO00001000"],
+])  # fmt: skip
+@pytest.mark.parametrize("split", [0, 1, 4])
+def test_only_a_whole_answer_of_this_mount_to_this_question_is_its_angle(
+    before: list[str], split: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    line = Serial(at=12.0)
+    axis, bus = rotator(line)
+
+    def said(self: Serial, address: str, words: str) -> None:
+        if words.startswith("PO"):
+            self.waiting += [f"{one}\r\n".encode() for one in before]
+        whole = f"{address}{words}\r\n".encode()
+        self.waiting += [whole[:split], whole[split:]] if split and words.startswith("PO") else [whole]
+
+    monkeypatch.setattr(Serial, "say", said)
+
+    async def go(one: Any) -> Any:
+        line.waiting[:] = [b"2PO00002000\r\n"]  # what came before the question
+        return await one.position()
+
+    assert asked(go, axis, bus) == pytest.approx(12.0, abs=0.01)
+
+
+@pytest.mark.parametrize("answer", ["2GS02", "2GS0A", None])
+def test_a_mount_that_answers_by_a_fault_or_not_at_all_has_no_angle(
+    answer: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(elliptec, "_REPLY", 0.02)
+    monkeypatch.setattr(Serial, "position", lambda self: answer[1:] if answer else "XX")
+    found = asked(lambda axis: axis.position(), *rotator(Serial(at=12.0)))
+    assert found == ("device-fault" if answer else "device-lost")
+
+
+def test_what_was_heard_before_a_move_is_not_where_it_ends() -> None:
+    line = Serial()
+    axis, bus = rotator(line)
+
+    async def go(one: Any) -> Any:
+        line.waiting[:] = [b"2PO00002000\r\n"]
+        return await one.move_to(45.0)
+
+    assert asked(go, axis, bus) == pytest.approx(45.0, abs=0.01)
+
+
+def test_a_closed_line_is_told_and_the_last_who_lets_go_closes_it() -> None:
+    from ElliptecBus.elliptec_bus import ElliptecBus
+
+    link = ElliptecBus("none", auto_connect=False)
+    with pytest.raises(ConnectionError, match="closed"):
+        elliptec._line_of(link)
+    line = Serial()
+    first, bus = rotator(line)
+    entry = DeviceEntry(driver="elliptec.rotator", address={"port": "none", "bus": "2"})
+    second = elliptec.Rotator("it", entry, bus)
+
+    async def go() -> list[bool]:
+        await first.connect()
+        await second.connect()
+        found = []
+        for one in (first, second):
+            await one.close()
+            found.append(line.is_open)
+        return found
+
+    assert asyncio.run(go()) == [True, False]
+
+
 # stages
 
 
@@ -202,10 +272,14 @@ class Chain:
     warning: str = "--"
     busy: int = 0
     at: float = 0.0
+    creeps: bool = False
+    """Whether it gets on by a count from one question to the next."""
     sent: list[str] = field(default_factory=list)
+    checked: dict[str, bool] = field(default_factory=dict)
 
     def generic_command(self, command: str, device: int, axis: int, check: bool, timeout: int) -> Any:
         self.sent.append(f"{device} {axis} {command}")
+        self.checked[command] = check
         told = {"get system.serial": "12345", "get deviceid": "50081", "get version": "7.1"}.get(command)
         if told is not None:
             return SimpleNamespace(data=told, status="IDLE", warning_flag="--")
@@ -215,6 +289,7 @@ class Chain:
             self.at = self.off
         elif command == "get pos" and self.busy:
             self.busy -= 1
+            self.at += self.creeps
             return SimpleNamespace(data=str(self.at), status="BUSY", warning_flag="--")
         moving = command.startswith("move") or command == "home"
         flag = "--" if moving or command == "warnings clear" else self.warning
@@ -268,6 +343,37 @@ def test_a_stage_that_says_it_moves_and_does_not_is_stopped_and_told(monkeypatch
     assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == "device-late" and "3 2 stop" in chain.sent
 
 
+def test_a_stage_that_gets_on_is_waited_for_however_slow_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(zaber, "_POLL", 0.0)
+    monkeypatch.setattr(zaber, "LONGEST", 0.0)
+    chain = Chain(busy=20, creeps=True, off=-20.0)
+    assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == 4.0 and "3 2 stop" not in chain.sent
+
+
+def test_a_stage_is_asked_by_its_numbers_and_a_refused_command_is_an_error() -> None:
+    chain = Chain(warning="FS")
+    asked(lambda axis: axis.move_to(4.0), *stage(chain))
+    assert chain.checked.pop("warnings clear") is False and all(chain.checked.values())
+    assert {"3 0 get system.serial", "3 0 get deviceid", "3 0 get version", "3 2 get pos"} <= set(chain.sent)
+    bus: Bus[Any] = Bus(lambda: alone, lambda one: one.close())
+    alone = Chain()
+    entry = DeviceEntry(driver="zaber.stage", address={"port": "x"}, settings={"counts_per_unit": 1.0})
+    assert asked(lambda axis: axis.position(), zaber.Stage("it", entry, bus), bus) == 0.0
+    assert "1 1 get pos" in alone.sent and "1 0 get deviceid" in alone.sent
+
+
+@pytest.mark.parametrize("host", ["10.0.0.7", ""])
+def test_a_link_to_stages_checks_what_is_said_over_it(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    from zaber_motion.ascii import Connection
+
+    made, opened = SimpleNamespace(), list[tuple[Any, ...]]()
+    for name in ("open_tcp", "open_serial_port"):
+        monkeypatch.setattr(Connection, name, lambda *given, name=name: (opened.append((name, *given)), made)[1])
+    link = zaber._opened(DeviceEntry(driver="zaber.stage", address={"host": host, "port": "77"}))
+    assert link is made and made.checksum_enabled is True and made.default_request_timeout == zaber.REPLY
+    assert opened == [("open_tcp", "10.0.0.7", 77) if host else ("open_serial_port", "77")]
+
+
 @pytest.mark.parametrize(("allowed", "goal", "goes"), [
     (None, 1e6, True), ((0.0, 50.0), 50.0, True), ((0.0, 50.0), 50.1, False), ((0.0, 50.0), -0.1, False),
     ((0.0, 50.0), float("nan"), False),
@@ -294,6 +400,23 @@ def test_a_value_is_within_its_limits_with_both_ends(value: float) -> None:
         with pytest.raises(PicoError, match="its limits are 0 to 10 deg") as caught:
             limits.require_within("it", "angle", value, (0.0, 10.0), "deg")
         assert caught.value.diagnostics[0].code == "device-limit"
+
+
+@pytest.mark.parametrize("kind", [zaber.Stage, scpi.Laser, switches.SwitchedLaser])
+def test_who_lets_go_of_a_link_alone_closes_it(kind: Any) -> None:
+    closed = list[Any]()
+    link: Any = {zaber.Stage: Chain, scpi.Laser: Spoken, switches.SwitchedLaser: Box}[kind]()
+    bus: Bus[Any] = Bus(lambda: link, closed.append)
+    address: dict[str, str | int] = {"visa": "x", "channel": 3, "relay": 7, "host": "x", "port": 1, "name": "s1"}
+    one = kind("it", DeviceEntry(driver="d", address=address, settings={"counts_per_unit": 1.0}), bus)
+
+    async def go() -> None:
+        await one.connect()
+        assert closed == []
+        await one.close()
+
+    asyncio.run(go())
+    assert closed and all(one is link for one in closed)
 
 
 # what is on or off
@@ -364,6 +487,31 @@ def test_a_shutter_is_as_it_was_told_by_its_own_contact_which_is_closed_while_it
 @pytest.mark.parametrize(("contact", "open_"), [("1", False), ("0", True), ("", "device-lost")])
 def test_a_shutter_reads_open_while_its_contact_is(contact: str, open_: Any) -> None:
     assert asked(lambda one: one.is_open(), *spoken(scpi.Shutter, Spoken(closed=[contact]))) == open_
+
+
+@pytest.mark.parametrize("kind", [scpi.Laser, scpi.Shutter])
+def test_a_stop_that_does_not_come_through_is_told_of_its_device(kind: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(self: Spoken, command: str) -> None:
+        raise OSError("no such device")
+
+    monkeypatch.setattr(Spoken, "tell", broken)
+    assert asked(lambda one: one.stop(), *spoken(kind, Spoken())) == "device-lost"
+
+
+@pytest.mark.parametrize(("wavelength", "reads", "code"), [
+    (None, 500.0, None), (632.8, 632.8, None), (632.8, 633.2, None), (632.8, 633.5, "device-read-back"),
+    (632.8, 632.0, "device-read-back"), (399.0, 399.0, "device-limit"), (701.0, 701.0, "device-limit"),
+])  # fmt: skip
+def test_a_meter_reads_at_the_wavelength_that_it_was_set_to(
+    wavelength: float | None, reads: float, code: str | None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Spoken, "number", lambda self, q: reads if q == "SENS:CORR:WAV?" else 0.0012, raising=False)
+    link = Spoken()
+    bus: Bus[Any] = Bus(lambda: link, lambda one: None)
+    entry = DeviceEntry(driver="scpi.meter", address={"visa": "x"}, limits={"wavelength": (400.0, 700.0)})
+    found = asked(lambda meter: meter.power(wavelength=wavelength), scpi.PowerMeter("it", entry, bus), bus)
+    assert found == (code or (0.0012, None))
+    assert link.sent == ([] if wavelength is None or code == "device-limit" else [f"SENS:CORR:WAV {wavelength:.3f}"])
 
 
 @pytest.mark.parametrize(("kind", "off"), [(scpi.Laser, "OUTP OFF"), (scpi.Shutter, "OUTP OFF,(@7)")])
