@@ -74,6 +74,7 @@ class Worker:
         file = COPY / mutant.file
         text = file.read_text()
         file.write_text(mutant.apply(text))
+        before = _cpu_of_children()
         try:
             loaded = self.loaded(mutant, text) if mutant.function else None
             if loaded:
@@ -82,7 +83,7 @@ class Worker:
                 answer = anew([item.nodeid for item in items], seconds)
         finally:
             file.write_text(text)
-        return answer or {"outcome": "timed out"}
+        return (answer or {"outcome": "timed out"}) | {"cpu": _cpu_of_children() - before}
 
     def loaded(self, mutant: Mutant, text: str) -> Callable[[], None] | None:
         """Return what puts the mutant into the functions that are loaded; None where that can't be done."""
@@ -98,6 +99,11 @@ class Worker:
                 function.__code__ = wrong
 
         return plant if live else None
+
+
+def _cpu_of_children() -> float:
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def _import_all() -> None:

@@ -3,15 +3,21 @@
     python benchmarks/mutants.py --seed 1 --count 200 --map map.json
     python benchmarks/mutants.py --seed 1 --count 4 --rooms policy --tests tests/policy
     python benchmarks/mutants.py --by-hand
+    python benchmarks/mutants.py --safety --map safety.json
+    python benchmarks/mutants.py --safety --module policy/dose leases
 
 A seed draws the mutants from all that `mutating.py` can make of the rooms, each as likely as any other. First the tests
 are run once to see which lines each of them executes (minutes; `--map` keeps that in a file, and only tests that have
 changed since are run again). Then each mutant meets those that execute its line, the cheapest first and those of its
 own room before others, up to so many CPU seconds, until one fails. `--by-hand` plants the mutants of
-`mutants_by_hand.py` instead, and runs the tests that each names.
+`mutants_by_hand.py` instead, and runs the tests that each names. `--safety` plants every mutant of the modules that
+decide about light and motion (`mutants_safety.py`; `--module` takes some of them) and runs the quick tests of the
+module's own package; what survives meets other quick tests, which is told apart.
 
 Prints the survivors as differences as they are found, and a table by room; a mutant that can't be told from the
 original counts as a survivor. The exit code is 3 where more than 15 % survive, 1 where one of those made by hand does.
+With `--safety` mutants that are listed in `mutants_accepted.json` are not planted, and 3 says that the quick tests of
+the own packages kill less than 95 % of the others.
 """
 
 from __future__ import annotations
@@ -24,19 +30,21 @@ import os
 import queue
 import random
 import re
+import resource
 import shutil
 import subprocess
 import sys
 import tempfile
 import threading
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from mutants_by_hand import BY_HAND
+from mutants_safety import SAFETY, accepted, belongs, chosen, key_of, table_of
 from mutating import Mutant, is_python, mutants, planted
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -52,8 +60,10 @@ ROOMS = {
 NEAR = {"merge": ("history",)}
 """Test folders of a room that have another name."""
 BAR = 0.15
+KILLED = 0.95
+"""The share of the mutants of the safety group that the quick tests of their own packages have to kill."""
 PROCESSES = 2
-SECONDS = 20.0
+SECONDS, ALL = 20.0, 90.0
 
 Tests = dict[str, dict[str, Any]]
 """For each test, by pytest's name, its CPU `seconds` and the `lines` that it executes, by file."""
@@ -61,12 +71,13 @@ Tests = dict[str, dict[str, Any]]
 
 @dataclass(frozen=True)
 class Verdict:
-    """What became of a mutant: killed, survived or timed out; `by` which test, of how many."""
+    """What became of a mutant: killed, survived or timed out; `by` which test, of how many; in how many CPU seconds."""
 
     mutant: Mutant
     outcome: str
     by: str
     tests: int
+    cpu: float = 0.0
 
 
 def room_of(file: str) -> str | None:
@@ -212,10 +223,13 @@ def _near(file: str) -> tuple[str, ...]:
 
 class Matching:
     """Which tests execute a line. Where a module has changed since a test was mapped, it executes all or none of it;
-    where the module is new, all that are near execute it."""
+    where the module is new, all that are near execute it. `near`: where the tests of a module's own room begin, by
+    file."""
 
-    def __init__(self, tests: Tests, texts: dict[str, str]) -> None:
-        self.tests, self.texts = tests, texts
+    def __init__(
+        self, tests: Tests, texts: dict[str, str], near: Callable[[str], tuple[str, ...]] = _near
+    ) -> None:  # fmt: skip
+        self.tests, self.texts, self.near = tests, texts, near
         self.at: defaultdict[tuple[str, int], set[str]] = defaultdict(set)
         self.of: defaultdict[str, set[str]] = defaultdict(set)
         self.any: defaultdict[str, set[str]] = defaultdict(set)
@@ -227,13 +241,13 @@ class Matching:
                 for line in lines:
                     self.at[file, line].add(name)
             for file in test["unknown"]:
-                if name.startswith(_near(file)):
+                if name.startswith(near(file)):
                     self.of[file].add(name)
 
     def __call__(self, mutant: Mutant, budget: float) -> tuple[list[str], float]:
         """Return the tests that a mutant meets, in order, and their CPU seconds."""
-        found = self._of_function(mutant) if mutant.function else self._of_name(mutant.name) or self.any[mutant.file]
-        near = _near(mutant.file)
+        found = self._of_function(mutant) if mutant.function else self._beside(mutant)
+        near = self.near(mutant.file)
 
         def cost(name: str) -> tuple[float, str]:
             return (0.02 + float(self.tests[name]["seconds"])) * (1 if name.startswith(near) else 3), name
@@ -249,6 +263,12 @@ class Matching:
     def _of_function(self, mutant: Mutant) -> set[str]:
         lines = range(mutant.first, mutant.line + 1)
         return self.of[mutant.file].union(*(self.at[mutant.file, line] for line in lines))
+
+    def _beside(self, mutant: Mutant) -> set[str]:
+        """Return the tests that may notice another constant: a test that only reads it executes no line."""
+        executing = self._of_name(mutant.name) or self.any[mutant.file]
+        files = {name.partition("::")[0] for name in executing}
+        return executing | {name for name in self.tests if name.partition("::")[0] in files}
 
     def _of_name(self, name: str) -> set[str]:
         word = re.compile(rf"\b{re.escape(name)}\b")
@@ -269,7 +289,9 @@ def judged(
     jobs = [{"mutant": asdict(made[n]), "tests": tests[n][0], "seconds": tests[n][1]} for n in met]
     for done, (number, answer) in enumerate(workers.answers(jobs), 1):
         n = met[number]
-        verdicts[n] = Verdict(made[n], answer["outcome"], answer.get("by", ""), len(tests[n][0]))
+        verdicts[n] = Verdict(
+            made[n], answer["outcome"], answer.get("by", ""), len(tests[n][0]), answer.get("cpu", 0.0)
+        )  # fmt: skip
         if verdicts[n].outcome != "killed" and made[n].wrong != made[n].right:
             print("\n" + shown(verdicts[n], texts[made[n].file]), flush=True)
         print(f"\r{done} of {len(jobs)} mutants judged", end="", file=sys.stderr, flush=True)
@@ -307,7 +329,40 @@ def sampled(given: argparse.Namespace) -> list[Verdict]:
     made = drawn(texts, given.seed, given.count)
     with running(given.tests) as workers:
         matching = Matching(mapped(workers, texts, given.map), texts)
-        return judged(workers, made, [matching(mutant, given.seconds) for mutant in made], texts)
+        return judged(workers, made, [matching(mutant, given.seconds or SECONDS) for mutant in made], texts)
+
+
+def safety(words: Sequence[str], kept: Path | None, seconds: float, own_only: bool = False) -> int:
+    """Plant every mutant of the safety group, or of the modules whose path contains a word, and print what became of
+    them. Return the exit code: 3 if the quick tests of the own packages kill less than `KILLED` of them."""
+    files, known = chosen(words), accepted()
+    texts = {file: (ROOT / file).read_text() for file in files}
+    every = [m for file in files for m in mutants(file, texts[file]) if belongs(m) and is_python(m.apply(texts[file]))]
+    made = [m for m in every if key_of(m, texts[m.file]) not in known]
+    folders = sorted(
+        {folder for file in files for folder in (*SAFETY[file].own, *(() if own_only else SAFETY[file].others))}
+    )
+    with running(folders) as workers:
+        tests = mapped(workers, texts, kept)
+
+        def met(file: str, among: tuple[str, ...]) -> Matching:
+            inside = tuple(f"{folder}/" for folder in among)
+            return Matching({n: t for n, t in tests.items() if n.startswith(inside)}, texts, lambda _: inside)
+
+        def all_judged(these: Sequence[Mutant], which: Callable[[str], tuple[str, ...]]) -> list[Verdict]:
+            matching = {file: met(file, which(file)) for file in files}
+            return judged(workers, these, [matching[m.file](m, seconds) for m in these], texts)
+
+        own = all_judged(made, lambda file: SAFETY[file].own)
+        left = [v.mutant for v in own if v.outcome == "survived" and SAFETY[v.mutant.file].others and not own_only]
+        print("\n\nWhat the own package leaves, by other quick tests:", flush=True) if left else None
+        others = all_judged(left, lambda file: SAFETY[file].others)
+    killed_elsewhere = Counter(v.mutant.file for v in others if v.outcome != "survived")
+    print("\n" + table_of(own, killed_elsewhere, Counter(m.file for m in every)))
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{used.ru_utime + used.ru_stime:.0f} CPU seconds in all")
+    survived = sum(v.outcome == "survived" for v in own)
+    return 3 if survived > (1 - KILLED) * len(own) else 0
 
 
 def by_hand(only: str) -> list[Verdict]:
@@ -349,11 +404,18 @@ def main() -> int:
     parser.add_argument("--tests", nargs="+", default=["tests"], help="test files and folders to choose from")
     parser.add_argument("--map", type=Path, help="a file that keeps which test executes what")
     parser.add_argument(
-        "--seconds", type=float, default=SECONDS, help="CPU seconds of tests that a mutant meets at most"
+        "--seconds",
+        type=float,
+        help=f"CPU seconds of tests that a mutant meets at most: {SECONDS:g}, {ALL:g} with --safety",
     )
     parser.add_argument("--by-hand", action="store_true", help="the mutants made by hand")
     parser.add_argument("--only", default="", help="of those made by hand, those that mean this")
+    parser.add_argument("--safety", action="store_true", help="every mutant of what decides about light and motion")
+    parser.add_argument("--module", nargs="+", default=[], help="of those, the modules whose path contains a word")
+    parser.add_argument("--own", action="store_true", help="only the quick tests of the own packages")
     given = parser.parse_args()
+    if given.safety:
+        return safety(given.module, given.map, given.seconds or ALL, given.own)
     verdicts = by_hand(given.only) if given.by_hand else sampled(given)
     print(file=sys.stderr)
     if given.by_hand:

@@ -140,7 +140,9 @@ class _Module:
             case ast.Return(value=ast.expr() as value):
                 truth = isinstance(value, ast.Compare | ast.BoolOp | ast.UnaryOp)
                 yield from (self._whole("return", value, new) for new in (("True", "False") if truth else ("None",)))
-            case ast.Expr(value=ast.Call()) | ast.AugAssign() | ast.Raise() | ast.Continue() | ast.Break():
+            case (
+                ast.Expr(value=ast.Call() | ast.Await()) | ast.AugAssign() | ast.Raise() | ast.Continue() | ast.Break()
+            ):
                 yield self._whole("deleted", node, "pass")
             case ast.If() | ast.IfExp():
                 yield from (self._whole("condition", node.test, new) for new in ("True", "False"))
@@ -193,7 +195,7 @@ def _walk(node: ast.AST, place: _Place = _Place()) -> Iterator[tuple[ast.AST, in
                 yield from _walk(child, place)
         elif isinstance(child, ast.ClassDef):
             yield from _walk(child, replace(place, within=f"{place.within}{child.name}."))
-        elif isinstance(child, ast.FunctionDef):
+        elif isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef):
             for default in (*child.args.defaults, *child.args.kw_defaults):
                 if default:
                     yield from _walk(default, replace(place, name=child.name))

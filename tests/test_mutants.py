@@ -12,6 +12,7 @@ ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "benchmarks"))
 
 from mutants_by_hand import BY_HAND  # noqa: E402
+from mutants_safety import SAFETY, accepted, belongs, chosen, key_of  # noqa: E402
 from mutating import is_python, mutants, planted  # noqa: E402
 
 MODULE = '''\
@@ -57,6 +58,37 @@ def test_what_was_made_by_hand_has_its_place() -> None:
         mutant = planted(str(file), texts[file], one.right, one.wrong)
         assert texts[file].count(one.right) == 1 and is_python(mutant.apply(texts[file])), one.means
         assert len(list((ROOT / "tests").rglob(one.tests))) == 1, one.tests
+
+
+def test_the_safety_group_has_its_modules_tests_and_functions() -> None:
+    for file, module in SAFETY.items():
+        assert all((ROOT / folder).is_dir() for folder in (*module.own, *module.others)), file
+        functions = {m.function for m in mutants(file, (ROOT / file).read_text()) if belongs(m)}
+        assert functions and functions >= set(module.functions), file
+    assert chosen(["guard/rates", "policy/dose"]) == ["pico/policy/dose.py", "pico/server/guard/rates.py"]
+    assert chosen([]) == list(SAFETY)
+    with pytest.raises(SystemExit, match="no module of the safety group contains `nothing`"):
+        chosen(["nothing"])
+
+
+def test_each_accepted_mutant_can_still_be_planted_and_says_why_it_is_accepted() -> None:
+    """An entry whose line was edited goes, or is written anew: `mutants.py --safety` shows what it hides."""
+    for file in {one.module for one in accepted().values()}:
+        text = (ROOT / file).read_text()
+        there = {key_of(m, text) for m in mutants(file, text) if belongs(m)}
+        gone = [key for key in accepted() if key[0] == file and key not in there]
+        assert not gone, gone
+    assert all(len(one.reason) > 20 for one in accepted().values())
+
+
+@pytest.mark.slow
+def test_the_safety_group_is_judged_by_the_quick_tests_of_its_own_packages() -> None:
+    words = ["--safety", "--own", "--module", "guard/rates", "drivers/limits"]
+    done = subprocess.run(
+        [sys.executable, str(ROOT / "benchmarks" / "mutants.py"), *words], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "pico/server/guard/rates.py" in done.stdout and "CPU seconds in all" in done.stdout
 
 
 @pytest.mark.slow

@@ -15,7 +15,7 @@ from pico.model.pose import Pose, angle_between
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of, state_from_json
 from pico.optics.audit.findings import Audit, Finding, told
-from pico.optics.audit.lasers import laser_class, lasers_of
+from pico.optics.audit.lasers import laser_class, lasers_of, unread_power
 from pico.optics.audit.limits import above_class_2
 from pico.optics.axis import Values, axis_of
 from pico.planning.checks.emission import SEARCHING, lets_out
@@ -225,8 +225,12 @@ def _shining(setup: Setup, seen: Observation, sources: Iterable[str]) -> tuple[s
     return lasers_of(setup, there, {n: {**own, **_maybe_on(setup, seen, n)} for n, own in values.items()})
 
 
-def _maybe_on(setup: Setup, seen: Observation, name: str) -> dict[str, bool]:
-    """Return that a laser emits of which nobody knows whether it does."""
-    live = seen.components[name].values.get("emission") if name in setup.lab.inventory else None
-    source = live is not None and setup.type_of(name).optics.element == "source"
-    return {"emission": True} if source and live is not None and live.status == "unknown" else {}
+def _maybe_on(setup: Setup, seen: Observation, name: str) -> dict[str, Any]:
+    """Return that a laser emits if its emission was not read back, and the highest power that it may have if that was
+    not."""
+    if name not in setup.lab.inventory or setup.type_of(name).optics.element != "source":
+        return {}
+    known = {key: live.value for key, live in seen.components[name].values.items() if live.status == "known"}
+    switched, most = "emission" in setup.type_of(name).tunables, unread_power(setup, name, known)
+    found: dict[str, Any] = {"emission": True} if switched and known.get("emission") is None else {}
+    return found if most is None else {**found, "power": most}

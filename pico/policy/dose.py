@@ -91,9 +91,10 @@ def _after(seen: Observation, op: Operation) -> Observation | None:
     part = seen.components.get(op.component)
     if part is None:
         return None
-    if op.primitive == "set":
-        return with_value(seen, op.component, str(op.arguments["tunable"]), op.arguments["to"])
-    if op.kind.carries and "pose" in op.arguments.get("to", {}):
-        moved = replace(part, pose=Pose(**op.arguments["to"]["pose"]))
+    to, tunable = op.arguments.get("to"), op.arguments.get("tunable")
+    if op.primitive in ("set", "operator") and tunable is not None:
+        return with_value(seen, op.component, str(tunable), op.arguments["to"])
+    if isinstance(to, Mapping) and "pose" in to:  # by an arm or by hand
+        moved = replace(part, pose=Pose(**to["pose"]))
         return replace(seen, components={**seen.components, op.component: moved})
     return None

@@ -14,6 +14,7 @@ from oracles.beam_pictures import Beam, picture
 from pico.diagnostics import PicoError
 from pico.kernels import known
 from pico.kernels.frame import Frame
+from pico.kernels.kernel import Parameter
 from pico.kernels.pipeline import parsed, run
 from pico.registered import modules
 
@@ -73,13 +74,21 @@ def test_readings_are_no_image() -> None:
         run(parsed("image | background"), picture(Beam(60, 60), (200, 200), 1))
 
 
+def _example(parameter: Parameter) -> float:
+    """A value that a parameter takes: its default, else one that fits a radius [um], an angle [deg] or a share."""
+    if parameter.default is not None:
+        return parameter.default
+    return 30.0 if parameter.unit else max(0.5, parameter.least or 0.0)
+
+
 def test_every_kernel_has_a_version_and_says_what_it_gives_of_a_picture() -> None:
     frame = picture(Beam(60, 60), (200, 200), 1)
     for name in known.modules():
         declared = known.kernel(name).KERNEL
         assert declared.version
         if declared.takes == "image" and declared.gives == "numbers":
-            found = run(parsed(f"image | {name}(radius=30)" if declared.parameters else f"image | {name}"), frame)
+            words = ", ".join(f"{n}={_example(p):g}" for n, p in declared.parameters.items())
+            found = run(parsed(f"image | {name}({words})" if words else f"image | {name}"), frame)
             assert (found.kernel, found.version) == (name, declared.version)
             assert found.unknown or tuple(found.value) == tuple(found.sigma) == tuple(declared.units)
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from oracles.unfinished import unfinished
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.model.observation import ObservedComponent, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
@@ -163,3 +163,42 @@ def test_a_journal_on_a_disk_that_takes_nothing_is_read_all_the_same(tmp_path: P
     read = Journal(path, looking=True)
     assert [run.run for run in read.runs()] == ["run-1"]
     read.close()
+
+
+@pytest.mark.parametrize("fence", [0, 4, 5, 6])
+@pytest.mark.parametrize("kind", ["intent", "started", "ended"])
+def test_who_has_an_earlier_lease_than_the_fence_writes_nothing(journal: Journal, fence: int, kind: str) -> None:
+    def write(token: int) -> None:
+        if kind == "intent":
+            journal.intend("r1/op1/1", MOVE, token=token)
+        elif kind == "started":
+            journal.started("r1/op1/1", SEEN, token=token)
+        else:
+            journal.ended(DONE, token=token)
+
+    if kind != "intent":
+        journal.intend("r1/op1/1", MOVE, token=0)
+    if kind == "ended":
+        journal.started("r1/op1/1", SEEN, token=0)
+    before = journal.records(run="r1")
+    journal.fence(fence)
+    if fence <= 5:
+        write(5)
+        assert [r.token for r in journal.records(run="r1")[len(before) :]] == [5]
+    else:
+        with pytest.raises(PicoError, match="the lease 5 is not the current one") as caught:
+            write(5)
+        assert caught.value.exit_code == ExitCode.LOCKED and journal.records(run="r1") == before
+
+
+def test_a_fence_only_rises(journal: Journal) -> None:
+    journal.fence(5)
+    journal.fence(5)
+    with pytest.raises(PicoError, match="the lease 4 is not the current one") as caught:
+        journal.fence(4)
+    assert caught.value.exit_code == ExitCode.LOCKED
+    with pytest.raises(PicoError, match="the lease 4"):
+        journal.intend("r1/op1/1", MOVE, token=4)
+    journal.fence(6)
+    with pytest.raises(PicoError, match="the lease 5"):
+        journal.intend("r1/op1/1", MOVE, token=5)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping
-from typing import Any
+from typing import Any, TypeGuard
 
-from pico.model.arming import LaserClass
+from pico.model.arming import CLASSES, LaserClass
 from pico.model.quantities import convert
 from pico.model.setup import Setup
-from pico.optics.audit.limits import class_of
+from pico.optics.audit.limits import VISIBLE, class_of
 from pico.optics.axis import Values
 
 
@@ -27,15 +28,39 @@ def lasers_of(setup: Setup, poses: Collection[str], values: Values) -> tuple[str
 
 
 def laser_class(setup: Setup, laser: str, values: Mapping[str, Any]) -> tuple[LaserClass, float]:
-    """Return the class of a laser with these tunables, and its power [mW]."""
-    kind = setup.type_of(laser)
+    """Return the class of a laser with these tunables, and its power [mW]. A tunable that was not read back counts as
+    whatever it may be: the power as the highest of its range, the wavelength as the most dangerous one."""
+    power = max(_may_be(setup, laser, values, "power", "mW", 1.0))
+    of = (class_of(power, wavelength) for wavelength in _may_be(setup, laser, values, "wavelength", "nm", 632.8))
+    return max(of, key=CLASSES.index), power
 
-    def number(name: str, unit: str, otherwise: float) -> float:
-        own, tunable = values.get(name), kind.tunables.get(name)
-        if tunable is not None and isinstance(own, int | float) and not isinstance(own, bool):
-            return float(convert(f"{own!r} {tunable.unit}", unit)) if tunable.unit not in ("", unit) else float(own)
-        found = kind.number(name, unit)
-        return otherwise if found is None else found
 
-    power = number("power", "mW", 1.0)
-    return class_of(power, number("wavelength", "nm", 632.8)), power
+def unread_power(setup: Setup, laser: str, values: Mapping[str, Any]) -> float | None:
+    """Return the highest power that a laser may have, in the unit of its tunable, if it can be set and was not read
+    back; else None."""
+    tunable = setup.type_of(laser).tunables.get("power")
+    return tunable.range[1] if tunable is not None and tunable.range and not _number(values.get("power")) else None
+
+
+def _may_be(
+    setup: Setup, laser: str, values: Mapping[str, Any], name: str, unit: str, otherwise: float
+) -> tuple[float, ...]:  # fmt: skip
+    """Return what a property of a laser may be, in a unit: one value if it is known, else the ends of its range and
+    what lies just beyond the visible."""
+    kind, own = setup.type_of(laser), values.get(name)
+    tunable, found = kind.tunables.get(name), kind.number(name, unit)
+    if tunable is None:
+        return (otherwise if found is None else found,)
+    numbers = (own,) if _number(own) else tunable.range or (math.inf,)
+    known = tuple(
+        float(convert(f"{n!r} {tunable.unit}", unit))
+        if tunable.unit not in ("", unit) and math.isfinite(n)
+        else float(n)
+        for n in numbers
+    )
+    beyond = math.nextafter(VISIBLE[1], math.inf)
+    return (*known, beyond) if name == "wavelength" and min(known) < beyond < max(known) else known
+
+
+def _number(value: object) -> TypeGuard[float]:
+    return isinstance(value, int | float) and not isinstance(value, bool)

@@ -157,6 +157,27 @@ def test_coupled_tunables_are_reported_and_conflict_where_strict() -> None:
     assert view(strict.data.decode(), "ours") == ours and view(strict.data.decode(), "theirs") == theirs
 
 
+@pytest.mark.parametrize(("mine", "other", "together"), [
+    ({"tip"}, {"tilt"}, True), ({"tip"}, {"slot"}, False), ({"slot"}, {"tilt"}, False),
+    ({"tip", "tilt"}, {"slot"}, False),
+    ({"tip", "slot"}, {"tilt"}, True), ({"tip"}, {"x"}, False), ({"tip"}, set(), False), ({"tip"}, {"tip"}, False),
+])  # fmt: skip
+def test_a_group_is_told_of_only_where_each_side_changed_a_part_of_it(
+    mine: set[str], other: set[str], together: bool
+) -> None:
+    edits = {"tip": ("tip: 1.0", "tip: 1.5"), "tilt": ("tilt: 2", "tilt: 3"), "x": ("x: 120", "x: 130"),
+             "slot": ("storage/a1", "storage/a2")}  # fmt: skip
+
+    def edited(names: set[str]) -> str:
+        text = BASE
+        for name in sorted(names):
+            text = text.replace(*edits[name])
+        return text
+
+    found = merged(edited(mine), edited(other), groups=GROUPS)
+    assert found.clean and [c.component for c in found.coupled] == (["m1"] if together else [])
+
+
 def test_a_pose_is_always_one_group() -> None:
     found = merged(BASE.replace("x: 120", "x: 1"), BASE.replace("yaw: 0", "yaw: 9"))
     assert found.clean and [(c.ours, c.theirs) for c in found.coupled] == [(("pose.x",), ("pose.yaw",))]
