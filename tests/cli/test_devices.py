@@ -74,8 +74,8 @@ def vars_of(pose):
     return {"x": pose.x, "y": pose.y, "yaw": pose.yaw}
 
 
-def opened(setup, root, fidelity, clock):
-    return Tray(setup, root, fidelity)
+def opened(setup, place, fidelity, clock):
+    return Tray(setup, place.root, fidelity)
 '''
 
 

@@ -26,17 +26,17 @@ def keep(lab: Path, kept: Path) -> None:
     shutil.rmtree(kept, ignore_errors=True)
     (kept / "plans").mkdir(parents=True)
     _git(lab, "bundle", "create", "-q", str(kept / "repository.bundle"), "HEAD", "--branches", "--tags")
-    with sqlite3.connect(lab / ".pico/journal.sqlite") as journal:
+    with sqlite3.connect(lab / ".pico/benches/sim/journal.sqlite") as journal:
         (version,) = journal.execute("PRAGMA user_version").fetchone()
         lines = [*journal.iterdump(), f"PRAGMA user_version={version};"]
     (kept / "journal.sql").write_text("\n".join(lines) + "\n")
-    shutil.copy(lab / ".pico/sim/world.json", kept)
+    shutil.copy(lab / ".pico/benches/sim/world.json", kept)
     for plan in lab.glob("*.plan"):
         shutil.copy(plan, kept / "plans")
 
 
 def restore(kept: Path, lab: Path) -> None:
-    """Make the laboratory that is kept in `kept` in the new folder `lab`."""
+    """Make the laboratory that is kept in `kept` in the new folder `lab`, with all benches in one folder as then."""
     _git(kept, "clone", "-q", str(kept / "repository.bundle"), str(lab))
     for branch in _git(lab, "for-each-ref", "--format=%(refname:lstrip=3)", "refs/remotes/origin").split():
         if branch not in ("HEAD", "main"):

@@ -11,6 +11,7 @@ from typing import Any
 
 import keeping
 import pytest
+from bench_at import bench_at
 from commanding import Pico
 
 from pico.bench.bench import Bench
@@ -102,5 +103,5 @@ def test_a_killed_run_is_taken_up_again(tmp_path: Path, monkeypatch: pytest.Monk
 
 @EACH
 def test_its_journal_is_lifted_to_this_version(kept: Path, lab: Path) -> None:
-    runs = Journal(lab / ".pico/journal.sqlite").runs()
+    runs = Journal(bench_at(lab).folder / "journal.sqlite").runs()
     assert VERSION >= 3 and runs and all(run.plan.startswith("sha256:") for run in runs)

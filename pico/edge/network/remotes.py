@@ -12,6 +12,7 @@ import json
 import os
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -19,7 +20,7 @@ from urllib.parse import urlsplit
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.disk import write_whole
 from pico.places.bench import BenchPlace, local_benches
-from pico.places.lab import BENCHES, lab_place, own_folder
+from pico.places.lab import BENCHES, FOLDER, lab_place, own_folder
 
 PAGE = "gui"
 """What the coordinator of `pico gui` is called while it serves."""
@@ -62,7 +63,10 @@ class Far:
     def folder(self) -> Path:
         """Where the checkout keeps what is its own of this bench."""
         place = re.sub(r"[^A-Za-z0-9.-]", "_", self.remote.url.partition("://")[2])
-        return own_folder(self.root) / BENCHES / place / self.lab / self.bench
+        folder = own_folder(self.root) / BENCHES / place / self.lab / self.bench
+        if (folder / FOLDER).is_dir():
+            _bring_up(folder)
+        return folder
 
     @property
     def name(self) -> str:
@@ -82,6 +86,15 @@ class Far:
 
 Place = BenchPlace | Far
 """A bench: one of this machine, or one of a coordinator."""
+
+
+def _bring_up(folder: Path) -> None:
+    """Move what an earlier PICO kept in a folder `.pico` of its own to where it belongs."""
+    with suppress(OSError):  # on a read-only disk it is not read
+        for path in (folder / FOLDER).iterdir():
+            if not (folder / path.name).exists():
+                path.rename(folder / path.name)
+        (folder / FOLDER).rmdir()
 
 
 def address(url: str) -> str:
