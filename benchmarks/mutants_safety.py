@@ -39,6 +39,7 @@ SAFETY: dict[str, Module] = {
     "pico/policy/dose.py": Module(("tests/policy",), ("tests/edge",)),
     "pico/planning/checks/emission.py": Module(("tests/planning/checks",), ("tests/edge",)),
     "pico/planning/checks/beams.py": Module(("tests/planning/checks",), ("tests/policy",)),
+    "pico/model/arming.py": Module(("tests/model",), ("tests/policy",)),
     "pico/optics/audit/lasers.py": Module(("tests/optics/audit",), ("tests/planning/checks",)),
     "pico/optics/audit/limits.py": Module(("tests/optics/audit",), ("tests/planning/checks",)),
     "pico/control/leases.py": Module(("tests/control",)),
