@@ -197,6 +197,29 @@ def test_the_edge_ends_a_run_that_is_over_by_itself_and_tells_its_client(
     alone_left = Left(why=f"it was to end at {UNTIL}", reached=("shut", "lamps off", "parked"),
                       was={"laser.shutter": "open"})  # fmt: skip
     edge.values |= {"holder": {"illumination": False}, "cam": {"illumination": False}}
+    edge.joints = (PARKED[0] + 0.2, *PARKED[1:])
+    held(edge, go)
+    assert len(edge.started) == 1, "an arm that was under way is parked, too"
+
+
+def test_a_run_that_its_client_leaves_just_now_is_not_ended_once_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(unattended, "LOOKS", 0.0)
+    edge = Edge(tmp_path, laser=LIT)
+
+    async def go(alone: Alone) -> None:
+        watching = alone._watching
+        assert watching is not None
+        async with alone._ending:
+            edge.time = UNTIL
+            for _ in range(10):
+                await asyncio.sleep(0)  # it waits for its turn to end the run
+            alone.terms = None
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert watching.done() and watching.exception() is None and edge.said == []
+
     held(edge, go)
 
 
