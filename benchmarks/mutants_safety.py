@@ -39,6 +39,7 @@ SAFETY: dict[str, Module] = {
     "pico/policy/dose.py": Module(("tests/policy",), ("tests/edge",)),
     "pico/planning/checks/emission.py": Module(("tests/planning/checks",), ("tests/edge",)),
     "pico/planning/checks/beams.py": Module(("tests/planning/checks",), ("tests/policy",)),
+    "pico/model/arming.py": Module(("tests/model",), ("tests/policy",)),
     "pico/optics/audit/lasers.py": Module(("tests/optics/audit",), ("tests/planning/checks",)),
     "pico/optics/audit/limits.py": Module(("tests/optics/audit",), ("tests/planning/checks",)),
     "pico/control/leases.py": Module(("tests/control",)),
@@ -60,7 +61,7 @@ SAFETY: dict[str, Module] = {
     "pico/content/store.py": Module(("tests/content",)),
     "pico/backends/hardware/guarding.py": Module(("tests/backends/hardware",)),
     "pico/backends/hardware/tunables.py": Module(("tests/backends/hardware",)),
-    "pico/backends/hardware/setting.py": Module(("tests/backends/hardware",)),
+    "pico/backends/hardware/setting.py": Module(("tests/backends/hardware",), functions=("driven", "_device")),
     "pico/backends/hardware/session.py": Module(
         ("tests/backends/hardware",), functions=tuple(f"HardwareSession.{name}" for name in _SESSION)
     ),

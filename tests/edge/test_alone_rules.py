@@ -54,6 +54,7 @@ class Edge:
         self.setup, self.root, self.time, self.moves = SETUP, root, NOW, False
         self.values, self.joints, self.holding = values, PARKED, None
         self.said, self.fails, self.stuck = list[str](), "", False
+        self.started, self.jams = list[Any](), False
         self.alone: Alone | None = None
 
     async def describe(self) -> Any:
@@ -80,9 +81,14 @@ class Edge:
         self.said.append("release")
 
     async def start(self, job: Any, run: str) -> str:
-        raise AssertionError("nothing moves here")
+        self.said.append(f"start {job.holder} {job.wait:g} {[op.primitive for op in job.plan.operations]}")
+        self.started.append(job)
+        if not self.jams:
+            self.joints = PARKED
+        return run
 
-    async def report(self, run: str) -> Any: ...
+    async def report(self, run: str) -> Any:
+        self.said.append("report")
 
     async def end_of(self, holder: str) -> None:
         self.said.append(f"end of {holder}")
@@ -191,6 +197,29 @@ def test_the_edge_ends_a_run_that_is_over_by_itself_and_tells_its_client(
     alone_left = Left(why=f"it was to end at {UNTIL}", reached=("shut", "lamps off", "parked"),
                       was={"laser.shutter": "open"})  # fmt: skip
     edge.values |= {"holder": {"illumination": False}, "cam": {"illumination": False}}
+    edge.joints = (PARKED[0] + 0.2, *PARKED[1:])
+    held(edge, go)
+    assert len(edge.started) == 1, "an arm that was under way is parked, too"
+
+
+def test_a_run_that_its_client_leaves_just_now_is_not_ended_once_more(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(unattended, "LOOKS", 0.0)
+    edge = Edge(tmp_path, laser=LIT)
+
+    async def go(alone: Alone) -> None:
+        watching = alone._watching
+        assert watching is not None
+        async with alone._ending:
+            edge.time = UNTIL
+            for _ in range(10):
+                await asyncio.sleep(0)  # it waits for its turn to end the run
+            alone.terms = None
+        for _ in range(10):
+            await asyncio.sleep(0)
+        assert watching.done() and watching.exception() is None and edge.said == []
+
     held(edge, go)
 
 
@@ -222,6 +251,37 @@ def test_a_bench_is_left_as_the_terms_state_and_what_is_not_reached_is_told(
     assert ("laser may emit still" in texts) is ("shut" in end and stuck)
     assert ("holder may be lit still" in texts) is ("lamps off" in end and stuck)
     assert ("arm1 stands where it stopped" in texts) is ("parked" in end and away)
+
+
+@pytest.mark.parametrize("how", ["leave", "leave, nothing moves", "gone", "close"])
+@pytest.mark.parametrize("jams", [True, False])
+@pytest.mark.parametrize("end", [("parked",), ("shut",)])
+def test_arms_are_parked_at_the_end_unless_nothing_moves_any_more(
+    tmp_path: Path, how: str, jams: bool, end: tuple[str, ...]
+) -> None:
+    edge = Edge(tmp_path)
+    edge.joints, edge.jams = (PARKED[0] + 0.2, *PARKED[1:]), jams
+
+    async def go(alone: Alone) -> None:
+        watching = alone._watching
+        if how.startswith("leave"):
+            await alone.leave(NAME, moves=how == "leave")
+        else:
+            await (alone.gone(NAME) if how == "gone" else alone.close())
+        for _ in range(3):
+            await asyncio.sleep(0)
+        assert watching is not None and watching.done(), "nobody looks after it any more"
+
+    held(edge, go, end=end)
+    parks = how in ("leave", "gone") and end == ("parked",)
+    assert edge.said[3:] == (["start the edge 60 ['park']", "report"] if parks else [])
+    if parks:
+        (job,) = edge.started
+        assert job.plan.target.recipe == NAME and job.plan.target.step == "unattended"
+    left = read(tmp_path)
+    if left is not None and left.left is not None and end == ("parked",):
+        assert left.left.reached == (("parked",) if parks and not jams else ())
+        assert bool(left.left.wrong) is not (parks and not jams)
 
 
 def test_an_arm_that_holds_something_is_not_parked(tmp_path: Path) -> None:

@@ -13,6 +13,7 @@ import pytest
 from bench_at import bench_at
 from emulated_lab import wired_lab
 
+from pico.backends import ways
 from pico.backends.by_sight import BySight
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.session import HardwareSession
@@ -33,7 +34,7 @@ from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
-from pico.motion.types import MovePath, Segment, Waypoint
+from pico.motion.types import Blocked, MovePath, Segment, Waypoint
 from pico.planning import routines
 from pico.planning.routines import Routine
 from pico.twin.arms import TwinArm
@@ -195,6 +196,7 @@ class Curtain:
 def session(
     bench: Bench, axis: Axis | None = None, untried: frozenset[str] = frozenset(), curtain: Curtain | None = None,
     keep: Callable[[str, Value | None], None] = lambda *_: None, require: Callable[[], None] = lambda: None,
+    known: Known | None = None,
 ) -> HardwareSession:  # fmt: skip
     instruments = Instruments()
     if curtain is not None:
@@ -210,7 +212,8 @@ def session(
 
     arms = {"arm1": TwinArm(bench.setup.lab.robots["arm1"])}
     return HardwareSession(
-        bench.setup, instruments, Known(bench), motion=ArmMotion(bench.setup), arms=arms, tell=lambda event: None,
+        bench.setup, instruments, known or Known(bench), motion=ArmMotion(bench.setup), arms=arms,
+        tell=lambda event: None,
         now=lambda: 0.0, pause=none, measure=none, image=none, keep=keep, untried=untried,
         require=require,
     )  # fmt: skip
@@ -243,6 +246,72 @@ def test_a_part_is_picked_carried_and_put_down_and_seen_where_it_should_be(setup
     let_go = bench.said.index("lets go of lx_125")
     assert bench.said[let_go + 1] == "fingers 54" and let_go > grip, "that is kept while it still holds it"
     assert bench.loads == [(2, setup.type_of("lx_125").geometry.mass), (5, 0.0)], "from the grip to the release"
+
+
+class Noting(Known):
+    """Notes what is asked of it, and sees the shutter of the laser as it is told."""
+
+    def __init__(self, bench: Bench, shutter: ObservedValue | None = None) -> None:
+        super().__init__(bench)
+        self.shutter, self.asked = shutter, list[tuple[str, str, int]]()
+
+    def seen(self) -> Observation:
+        seen = super().seen()
+        if self.shutter is None:
+            return seen
+        laser = replace(seen.components["laser"], values={"shutter": self.shutter})
+        return replace(seen, components={**seen.components, "laser": laser})
+
+    def survey(self, component: str) -> Pose | None:
+        self.asked.append(("survey", component, self.bench.legs))
+        return super().survey(component)
+
+    def takes(self, component: str, path: Any) -> None:
+        self.asked.append(("takes", component, self.bench.legs))
+
+
+@pytest.mark.parametrize("allowed", [True, False])
+@pytest.mark.parametrize(("value", "status"), [
+    ("open", "known"), ("closed", "known"), ("closed", "commanded"), (None, "unknown"), ("ajar", "known"),
+])  # fmt: skip
+def test_no_arm_carries_in_a_beam_whose_shutter_was_not_read_back_closed(
+    setup: Setup, allowed: bool, value: Any, status: Any
+) -> None:
+    setup = replace(setup, lab=replace(setup.lab, policy=replace(setup.lab.policy, open_beam=allowed)))
+    bench = Bench(setup)
+    result = executed(session(bench, known=Noting(bench, ObservedValue(value=value, status=status))), move())
+    dark = value == "closed" and status == "known"
+    if allowed or dark:
+        assert result.outcome == "done" and bench.legs == 6
+    else:
+        assert result.error is not None and result.error.code == "open-beam" and result.error.address == "laser"
+        assert bench.said == [] and bench.legs == 0
+
+
+@pytest.mark.parametrize("held", [True, False])
+def test_a_part_is_looked_at_right_before_it_is_picked_and_kept_as_taken_before_the_arm_moves(
+    setup: Setup, held: bool
+) -> None:
+    bench, operation = Bench(setup), move()
+    if held:
+        bench.holding, bench.width = True, 34.0
+        start = {**operation.arguments["from"], "held": True}
+        operation = replace(operation, arguments={**operation.arguments, "from": start})
+    known = Noting(bench)
+    executed(session(bench, known=known), operation)
+    assert known.asked == ([] if held else [("survey", "lx_125", 0)]) + [("takes", "lx_125", 0)]
+
+
+def test_where_no_way_is_found_nothing_moves_and_what_is_in_the_way_is_told(
+    setup: Setup, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(ways, "carrying", lambda *_: (Pose(290, 310, 0), Blocked("reach", "p1 stands in the way")))
+    bench = Bench(setup)
+    known = Noting(bench)
+    result = executed(session(bench, known=known), move())
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.address == "lx_125" and bench.said == []
+    assert known.asked == [("survey", "lx_125", 0)], "it is not kept as taken"
 
 
 def test_an_arm_that_was_lost_moves_nothing_before_it_is_got_ready_again(setup: Setup) -> None:

@@ -318,7 +318,8 @@ class Known:
 
 
 def session(
-    door: Input | None = None, kind: Any = "interlock", require: Any = lambda: None, setup: Setup = SETUP
+    door: Input | None = None, kind: Any = "interlock", require: Any = lambda: None, setup: Setup = SETUP,
+    told: list[Any] | None = None,
 ) -> tuple[HardwareSession, dict[str, Device]]:  # fmt: skip
     devices = {name: Device(False) for name in ("laser.shutter", "laser.emission", "gate.shutter", "second.shutter")}
     wired = Instruments(tunables={
@@ -332,7 +333,8 @@ def session(
         return None
 
     made = HardwareSession(
-        setup, wired, Known(), motion=None, arms={}, tell=lambda event: None, now=lambda: 0.0, pause=none,  # type: ignore[arg-type]
+        setup, wired, Known(), motion=None, arms={}, tell=told.append if told is not None else lambda event: None,
+        now=lambda: 5.0, pause=none,  # type: ignore[arg-type]
         measure=none, image=none, keep=lambda *_: None, require=require,
     )  # fmt: skip
     return made, devices
@@ -406,3 +408,106 @@ def test_nothing_is_set_once_the_lease_is_over() -> None:
     one, devices = session(require=over)
     result = executed(one, set_to("laser", "shutter", "open"))
     assert result.outcome == "failed" and devices["laser.shutter"].told == []
+
+
+def test_what_begins_is_told_before_anything_is_done_and_how_it_ended_with_what_was_seen() -> None:
+    events, heard = list[Any](), list[Any]()
+    one, devices = session(told=events)
+
+    def began(before: Any) -> None:
+        heard.append((before, list(devices["laser.shutter"].told), len(events)))
+
+    result = asyncio.run(one.execute(set_to("laser", "shutter", "open"), "run/op1/1", began))
+    assert heard == [(observed().components["laser"], [], 0)] and devices["laser.shutter"].told == [True]
+    assert [(e.kind, e.run, e.operation, e.component) for e in events] == [
+        ("operation_started", "run", "op1", "laser")
+    ]  # fmt: skip
+    assert (result.key, result.outcome, result.seconds, result.ended) == ("run/op1/1", "done", 0.0, 5.0)
+    assert result.before == result.after == observed().components["laser"] and result.data == {"value": "open"}
+
+
+def test_what_was_stopped_before_it_began_to_move_does_nothing() -> None:
+    one, devices = session()
+
+    def began(before: Any) -> None:
+        one._stopped = True
+
+    result = asyncio.run(one.execute(set_to("laser", "shutter", "open"), "run/op1/1", began))
+    assert result.error is not None and result.error.code == "stopped" and devices["laser.shutter"].told == []
+
+
+@pytest.mark.parametrize("fails", [True, False])
+def test_what_fails_is_told_by_its_device_unless_an_input_ended_it(
+    fails: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(guarding, "EVERY", 0.0)
+    door = Input()
+    one, devices = session(door)
+
+    async def broken(wanted: bool) -> bool:
+        if fails:
+            door.state = SafetyState(safe=False, age=0.0)
+            for _ in range(50):
+                await asyncio.sleep(0)
+        raise PicoError(error("device-lost", "its cable is out"))
+
+    monkeypatch.setattr(devices["laser.emission"], "emit", broken)
+    result = executed(one, set_to("laser", "emission", True))
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.code == ("unsafe" if fails else "device-lost")
+
+
+def test_inputs_are_watched_while_light_is_let_out_and_not_after(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guarding, "EVERY", 0.0)
+    door = Input()
+    one, _ = session(door)
+
+    async def go() -> tuple[int, int]:
+        await one.execute(set_to("laser", "emission", True), "run/op1/1", lambda before: None)
+        await asyncio.sleep(0)
+        asked = door.asked
+        for _ in range(20):
+            await asyncio.sleep(0)
+        return asked, door.asked
+
+    before, after = asyncio.run(go())
+    assert before == after >= 1
+
+
+def test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone() -> None:
+    kinds = SETUP.type_of("cam").tunables
+    cap = Tunable(datatype="choice", choices=("open", "closed"), mover="electronics")
+    setup = with_type(with_type(SETUP, "cam", tunables={**kinds, "cap": cap}), "gate", tunables={
+        "shutter": Tunable(datatype="choice", choices=("open", "shut"), mover="electronics")
+    })  # fmt: skip
+    one, devices = session(setup=setup)
+    devices["cam.cap"] = Device()
+    one._bench.tunables["cam.cap"] = Shut(devices["cam.cap"])  # type: ignore[arg-type]
+    order = list[str]()
+
+    async def slow(on: bool) -> bool:
+        for _ in range(20):
+            await asyncio.sleep(0)
+        order.append("emitted")
+        return on
+
+    async def closes(wanted: bool) -> bool:
+        order.append("closed" if not wanted else "opened")
+        return wanted
+
+    devices["laser.emission"].emit = slow  # type: ignore[method-assign]
+    devices["laser.shutter"].open = closes  # type: ignore[method-assign]
+
+    async def started() -> None:
+        beginning = asyncio.Event()
+        task = asyncio.create_task(
+            one.execute(set_to("laser", "emission", True), "run/op1/1", lambda before: beginning.set())
+        )
+        await beginning.wait()
+        await asyncio.sleep(0)
+        await one.stop()
+        await task
+
+    asyncio.run(started())
+    assert order in (["emitted", "closed"], ["closed"]) and order[-1] == "closed"
+    assert devices["cam.cap"].told == [] == devices["gate.shutter"].told and devices["second.shutter"].told == [False]
