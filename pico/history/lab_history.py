@@ -102,7 +102,9 @@ class LabHistory:
     def here(self) -> str:
         """Return what to check out to come back to what is checked out now: the branch, else the commit's short id."""
         head = self.folder.head()
-        return (head.branch or (head.commit or "")[:7]) if head else ""
+        if head is None or head.branch is None:
+            return (head.commit or "")[:7] if head else ""
+        return head.branch if self.is_revision(head.branch) or not head.commit else f"heads/{head.branch}"
 
     def head_commit(self) -> str | None:
         """Return the id of the commit checked out; None without Git or before the first commit."""
@@ -111,8 +113,9 @@ class LabHistory:
 
     def name_of(self, revision: str) -> str:
         """Return `e1 (E1-3 "p2 tilted")` for a revision; raises PicoError."""
-        commit = self.folder.history().resolve(revision)
-        label = commit.label if revision in ("HEAD", commit.id) else revision
+        repository = self.folder.history()
+        commit = repository.resolve(revision)
+        label = commit.label if revision in ("HEAD", commit.id) else repository.spelled(revision)
         known = "" if label == commit.label else f"{commit.label} "
         return f'{label} ({known}"{commit.summary}")' if known else f'{label} "{commit.summary}"'
 

@@ -14,7 +14,7 @@ from pico.disk import disk_trouble
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.git.lanes import topological
-from pico.history.git.revisions import BRANCHES, TAGS, branch_for, find, names_at
+from pico.history.git.revisions import BRANCHES, TAGS, branch_for, find, names_at, spelled
 from pico.history.git.trees import folder_id, subtree
 from pico.history.git.unread import read_tree
 from pico.history.writing.claim import GitFolders, Goal
@@ -230,9 +230,14 @@ class Repository:
         return commits[::-1]
 
     def tips(self) -> tuple[str, ...]:
-        """Return the branches and tags, HEAD first where it exists: everything that `log` may start from."""
-        names = {name for refs in names_at(self._git, TAGS, BRANCHES).values() for name in refs}
+        """Return the full names of branches and tags, HEAD first if it exists: all that `log` may start from."""
+        kinds = (TAGS, BRANCHES)
+        names = {kind + name for kind in kinds for refs in names_at(self._git, kind).values() for name in refs}
         return (*(() if self._git.head_is_unborn else ("HEAD",)), *sorted(names))
+
+    def spelled(self, revision: str) -> str:
+        """Return `origin/e1` for `e1` where only a remote has such a branch, else the revision as it is."""
+        return spelled(self._git, revision)
 
     def commit(
         self,

@@ -122,7 +122,7 @@ def _listed(folder: LabFolder, revision: str) -> list[str]:
     """Return the commits of a range, oldest first, or the one revision."""
     if ".." not in revision:
         return [revision]
-    arguments = ["rev-list", "--reverse", "--end-of-options", revision, "--"]
+    arguments = ["rev-list", "--reverse", *for_rev_list(folder.history(), (revision,)), "--"]
     return git.run(folder.history().root, arguments, doing=f"list the commits of {revision}").split()
 
 

@@ -23,11 +23,12 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
 def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     """See `pico.recipes.registry.StepFile`."""
     history = doing.bench.folder.history()
+    branch = f"refs/heads/{given['name']}"  # a tag may have the same name
     if history.head().branch != given["name"]:
         try:
             history.branch(str(given["name"]))
         except PicoError:  # made before the recipe was cut short, and not yet checked out
-            if not doing.again or history.resolve(str(given["name"])).id != history.head().commit:
+            if not doing.again or history.resolve(branch).id != history.head().commit:
                 raise
-        doing.bench.history.checkout(str(given["name"]))
+        doing.bench.history.checkout(branch)
     return {}

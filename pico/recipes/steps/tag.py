@@ -26,6 +26,6 @@ def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     try:
         history.tag(name)
     except PicoError:
-        if not doing.again or history.resolve(name).id != history.head().commit:
+        if not doing.again or history.resolve(f"refs/tags/{name}").id != history.head().commit:
             raise
     return {}
