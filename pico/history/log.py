@@ -84,6 +84,7 @@ class Log:
         arguments = self._arguments()
         if arguments is None:
             return
+        self.repository.complete()
         lines = git.stream(self.repository.root, arguments, doing="list commits")
         sizes = chain(_BATCHES[:-1], iter(lambda: _BATCHES[-1], None))
         for size in sizes:

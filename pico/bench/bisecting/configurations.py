@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pico.bench.bisecting.costs import Leaves, PlanSeconds, leaves
 from pico.diagnostics import PicoError
 from pico.history.bisect.choice import NextCommit, Suspects, choices, halfway
+from pico.history.git.partial import require_fetched
 from pico.history.lab.folder import LabFolder
 from pico.model.observation import Observation
 from pico.model.setup import Setup
@@ -41,6 +42,7 @@ class Configurations:
             try:
                 self._states[commit] = self.folder.state_at(commit)
             except PicoError as exc:
+                require_fetched(exc)
                 self.unreadable[commit] = exc.diagnostics[0].summary
                 return None
         return self._states[commit]

@@ -10,6 +10,7 @@ from pico.bench.bisecting.search import TrialBench
 from pico.diagnostics import PicoError
 from pico.history.bisect.git_state import HEAD, GitBisect, Verdict
 from pico.history.git import command as git
+from pico.history.git.partial import require_fetched
 from pico.history.lab.folder import LabFolder
 from pico.model.plan import Plan
 from pico.model.record import record
@@ -55,6 +56,7 @@ def step(bench: TrialBench, expect: str, bring: Callable[[Plan], float]) -> Tria
     try:
         bench.folder.state_at(commit)
     except PicoError as exc:
+        require_fetched(exc)
         return TrialStep(commit=commit, verdict="skip", why=f"can't be read: {exc.diagnostics[0].summary}")
     plan = bench.plan(commit, expecting=False)
     require_known(bench.setup, bench.observe(), plan)

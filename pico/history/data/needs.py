@@ -76,7 +76,9 @@ def united(found: Iterable[Iterable[Need]]) -> Needs:
 
 def _committed(repository: Repository, revisions: tuple[str, ...]) -> Iterator[tuple[str, bytes]]:
     """Yield id and document of each run in the trees of commits; git passes over trees that it has seen."""
-    listed = git.run(repository.root, ["rev-list", "--objects", *revisions], doing="list what commits hold")
+    repository.complete(documents=True)
+    arguments = ["rev-list", "--objects", "--missing=allow-promisor", *revisions]
+    listed = git.run(repository.root, arguments, doing="list what commits hold")
     for line in listed.split("\n"):
         name, _, path = line.partition(" ")
         if path.endswith("/run.json") and (match := _RUN.fullmatch(path)):

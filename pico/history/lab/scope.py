@@ -106,5 +106,6 @@ def _inside(folder: LabFolder, word: str, at: Path) -> str:
 
 def _was_there(folder: LabFolder, path: Path) -> bool:
     repository = folder.history()
+    repository.complete()
     asked = ["rev-list", "-1", "--all", "--", f":(literal){repository.relative(path)}"]
     return bool(git.answer(repository.root, asked).strip())

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from pico.history.git.partial import open_handle
 from pico.history.git.trees import entries, subtree
 from pico.history.merge.alignment import Alike, Files, Versions, made_alike, settled
 from pico.history.merge.groups import groups_of, is_lab
@@ -28,9 +29,7 @@ class Union:
 
 def opened(root: Path) -> Any:
     """Return the repository at `root` as libgit2 holds it."""
-    import pygit2
-
-    return pygit2.Repository(str(root))
+    return open_handle(root)
 
 
 def unite_commits(handle: Any, ours: str, theirs: str, labels: Labels) -> Union:

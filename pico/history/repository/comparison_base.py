@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pico.diagnostics import PicoError, error
+from pico.history.git.partial import open_handle
 from pico.history.repository.repository import Repository
 from pico.model.record import record
 
@@ -113,6 +114,4 @@ def _known(handle: Any, name: str) -> bool:
 
 
 def _handle(repository: Repository) -> Any:
-    import pygit2
-
-    return pygit2.Repository(str(repository.root))
+    return open_handle(repository.root)

@@ -14,6 +14,7 @@ from pico.disk import disk_trouble
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.git.lanes import topological
+from pico.history.git.partial import complete, open_handle
 from pico.history.git.revisions import BRANCHES, TAGS, branch_for, find, names_at, spelled
 from pico.history.git.trees import folder_id, subtree
 from pico.history.git.unread import read_tree
@@ -32,7 +33,6 @@ MINUTE = timedelta(minutes=1)
 _UNREADABLE: tuple[tuple[str, str, str], ...] = (
     ("unknown object format", "it uses SHA-256 object names", "make it with `git init --object-format=sha1`"),
     ("extensions.refstorage", "it stores refs as reftable", "convert it: `git refs migrate --ref-format=files`"),
-    ("extensions.partialclone", "it is a partial clone", "clone it without `--filter`"),
     (
         "not owned by current user",
         "it belongs to another user, and a repository can run its owner's code",
@@ -71,7 +71,7 @@ class Repository:
         if not told:
             _refuse_embedded(Path(found), path)
         try:
-            handle = pygit2.Repository(found)
+            handle = open_handle(found)
         except Exception as exc:  # GitError, or ValueError and KeyError of the same cause
             raise _unreadable(Path(found), str(exc)) from exc
         tree = told[1] if told else handle.workdir
@@ -109,6 +109,11 @@ class Repository:
         own = self.own
         shared = own / "commondir"
         return (own / shared.read_text().strip()).resolve() if shared.is_file() else own
+
+    def complete(self, *, documents: bool = False) -> None:
+        """Fetch the folders that a partial clone lacks, and with `documents` their manifests, notes and documents of
+        runs: for git commands that read history with the network off. Raises PicoError."""
+        complete(self._git, documents=documents)
 
     def blob(self, name: str) -> bytes:
         """Return the content of the file that has an object id of its own."""

@@ -16,6 +16,7 @@ from pico.history.lab.folder import LabFolder, between
 from pico.history.merge.commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
 from pico.history.merge.trees import blobs, manifest_tree, opened, unite_trees, with_files
 from pico.history.messages.trailers import with_trailers
+from pico.history.repository.ranges import for_rev_list
 from pico.history.restoring.messages import (
     cherry_message,
     conflicts,
