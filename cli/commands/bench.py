@@ -102,6 +102,7 @@ def update(context: typer.Context, auto_approve: Yes = False, dry_run: Detailed 
     session = Session.of(context)
     place = session.place(find_lab(session.folder))
     found = updating.proposal(place)
+    session.tell(found.renamed)
     if not found.new or dry_run:
         session.show(view, found, adopted=False)
         return ExitCode.DONE

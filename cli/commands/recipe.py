@@ -72,6 +72,7 @@ def check(
     if wrong or found is None:
         session.report(wrong)
         return int(ExitCode.ERROR)
+    session.tell(found.told)
     with waiting("Planning what is known in advance"):
         ahead = recipes.ahead(found, recipes.arguments(found, _pairs(given or [])))
     session.show(view, found, ahead)

@@ -80,6 +80,7 @@ def run(
         return _go_on(session, recipes, recipe, dry_run, until, auto_approve, unattended, junit)
     assert recipe is not None
     found = recipes.read(recipe)
+    session.tell(found.told)
     arguments = recipes.arguments(found, _pairs(given or []))
     if until:
         recipes.require_step(found, until)

@@ -21,6 +21,7 @@ def text(found: Proposal, *, adopted: bool) -> str:
     lines = [_coloured(inert(line)) for line in found.patch.splitlines()]
     if not found.bench:
         return "\n".join([*lines, "", *wrap(f"{inert(found.differences[0])}.", "")])
+    lines += [f"{inert(one)}." for one in found.differences if " is now called " in one]
     return "\n".join(lines if found.differences else [*lines, "", "Only words differ: plans stay what they are."])
 
 

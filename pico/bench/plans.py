@@ -13,12 +13,14 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
+from pico.manifest.file_names import EXCLUDED
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Spoiled, Target
 from pico.model.quantities import Value
+from pico.model.renaming import called_now, renamed_state, renaming_of
 from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
@@ -58,20 +60,22 @@ class Plans:
     ) -> Plan:
         """Return the plan from the bench as it stands to a revision, or to the manifest in the working tree.
 
-        The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves` or
-        `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what must make way
-        for them; `exclude`: leave these alone. `manifests`: instead of those in the working tree. `expecting`: whether
-        the expectations of the state count; those of single components never do. `align`: seek the goals that are not
-        aligned when all stands, or that the plan spoils, at its end; None: as the policy of the lab says. Raises
-        PicoError for a revision that can't be read, for a component that there is not, and for an expectation that
-        makes no sense; what is physically impossible is in the plan's diagnostics.
+        The state comes from the revision, the bench as it is now. `prefer`: what counts first, `fewest-moves`
+        or `shortest-time`. `targets`: plan for these components or tunables (`p2`, `p1.angle`), and for what
+        must make way for them; `exclude`: leave these alone, also those that only the revision has.
+        `manifests`: instead of those in the working tree. `expecting`: whether the expectations of the state
+        count; those of single components never do. `align`: seek the goals that are not aligned when all
+        stands, or that the plan spoils, at its end; None: as the policy of the lab says. Raises PicoError for a
+        revision that can't be read, for a component that there is not, and for an expectation that makes no
+        sense; what is physically impossible is in the plan's diagnostics.
         """
         from pico.history.merge.doubts import require_settled
         from pico.planning import PlanGoal
 
         _require_preference(prefer)
-        folder, given = self.opened.folder, manifests
-        manifests = folder.manifests_at(revision) if revision else given or folder.manifests
+        folder, given, names = self.opened.folder, manifests, renaming_of(self.opened.setup.lab)
+        targets, exclude = ([called_now(names, word) for word in words] for words in (targets, exclude))
+        manifests = folder.manifests_at(revision, without=exclude) if revision else given or folder.manifests
         commit = folder.history().resolve(revision).id if revision else None
         wanted = self._goal(manifests, revision, targets)
         if not expecting:
@@ -80,13 +84,15 @@ class Plans:
             from pico.manifest.expression_checks import check_expectations
 
             _require_sense(check_expectations(manifests))
+        left_out = {d.address for d in manifests.diagnostics if d.code == EXCLUDED}
+        exclude = [word for word in exclude if word not in left_out]
         if manifests is not given:
             require_settled(folder.repository, folder.root, manifests, commit, targets)
         target = Target(
             revision=revision,
             commit=commit,
             only=tuple(sorted(targets)) or None,
-            exclude=tuple(sorted(exclude)) or None,
+            exclude=tuple(sorted((*exclude, *left_out))) or None,
             expect=wanted.expect or None,
             align=self.aligns(align) or None,
         )
@@ -415,8 +421,9 @@ class Plans:
         from pico.optics.nominal.feeding import Right
         from pico.runs.when_met import when_met
 
-        if (met := when_met(self.opened.edge.memory, self.opened.setup.lab.name, goal)) is not None:
-            yield Right(met, met=True, tuned=tuned)
+        lab = self.opened.setup.lab
+        if (met := when_met(self.opened.edge.memory, lab.name, goal)) is not None:
+            yield Right(renamed_state(renaming_of(lab), met), met=True, tuned=tuned)
 
     def to_survey(self, seen: Observation, shots: Shots, dark: Sequence[str]) -> Plan:
         """Return the plan that reads `shots` and frames in the `dark` of cameras; see `pico.bench.mornings`. Raises

@@ -16,6 +16,7 @@ from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.primitive import primitive
+from pico.model.renaming import renamed_state, renaming_of
 from pico.model.state import LabState, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
@@ -63,7 +64,7 @@ class Recovery:
         self._as_before(memory)
         only = began.target.only or _asked(began, sought)
         seen = self.opened.observe()
-        wanted = state_from_json(began.lab.name, began.target.state)
+        wanted = renamed_state(renaming_of(self.opened.setup.lab), state_from_json(began.lab.name, began.target.state))
         target = began.target
         if began.asked and not (target.revision or target.title):
             target = replace(target, title=f"what run {last.run} was to lead to")
@@ -95,7 +96,8 @@ class Recovery:
         if last is None:
             raise PicoError(_no_run(self.opened.place))
         self._as_before(memory)
-        done = {one for run in runs[: last + 1] for one in begun_by(memory, run)}
+        names = renaming_of(self.opened.setup.lab)
+        done = {(names.get(c, c), t) for run in runs[: last + 1] for c, t in begun_by(memory, run)}
         before, held = state_before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
         looked = replace(self.opened.observe(), aligned=None)  # numbers come back, whatever light says
         seen = self._emptied(looked)
@@ -233,7 +235,9 @@ def state_before(
 ) -> tuple[LabState, list[str]]:
     """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
     a hand held then: they are where the run before found them."""
-    states = (state_from_json(setup.lab.name, document_of(memory, run).base.state) for run in runs)
+    names = renaming_of(setup.lab)
+    documents = (document_of(memory, run).base.state for run in runs)
+    states = (renamed_state(names, state_from_json(setup.lab.name, base)) for base in documents)
     parts = dict(next(states).components)
     held = [name for name in sorted(touched) if name not in parts]
     for state in states:

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.opened import Opened
 from pico.bench.running.loop import LoopThread
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.disk import write_all
 from pico.edge import own_lab
 from pico.edge.network.opening import opened
@@ -24,10 +24,12 @@ from pico.execution.stale import edited
 from pico.model.lab import Known
 from pico.model.quantities import Value
 from pico.model.record import record
+from pico.model.renaming import renaming_of
 
 if TYPE_CHECKING:
     from pico.bench.importing import Imported
     from pico.edge.network.remotes import Place
+    from pico.model.setup import Setup
 
 DOING = "pico bench update"
 
@@ -54,12 +56,14 @@ class Swap:
 @record
 class Proposal:
     """What the working tree would have the bench be: the digests of both, what differs in words (the first few) and as
-    a unified diff of the files, from the bench to the tree. Comments alone may differ; the digests are then one."""
+    a unified diff of the files, from the bench to the tree. Comments alone may differ; the digests are then one.
+    `renamed`: parts that the tree seems to call otherwise, and does not say so."""
 
     bench: str
     tree: str
     differences: tuple[str, ...] = ()
     patch: str = ""
+    renamed: tuple[Diagnostic, ...] = ()
 
     @property
     def new(self) -> bool:
@@ -80,7 +84,24 @@ def proposal(place: Place) -> Proposal:
         lost = exc.diagnostics[0].summary
         return Proposal(bench="", tree=wanted.digest(), differences=(lost,), patch="".join(_patch({}, tree.files)))
     patch = "".join(_patch(own.files, tree.files))
-    return Proposal(bench=now.digest(), tree=wanted.digest(), differences=tuple(edited(now, wanted)), patch=patch)
+    told = tuple(edited(now, wanted))
+    alike = tuple(_alike(now, wanted))
+    return Proposal(bench=now.digest(), tree=wanted.digest(), differences=told, patch=patch, renamed=alike)
+
+
+def _alike(now: Setup, wanted: Setup) -> Iterator[Diagnostic]:
+    """Yield a warning for each part that vanishes while a new one has its marker and its home, or its fixed pose."""
+    names = renaming_of(wanted.lab)
+    gone = {n: p for n, p in now.lab.inventory.items() if n not in wanted.lab.inventory and n not in names}
+    for new, part in sorted(wanted.lab.inventory.items()):
+        for old, before in gone.items() if new not in now.lab.inventory else ():
+            if (before.marker, before.home, before.pose) == (part.marker, part.home, part.pose):
+                text = f"{new} has the marker and the place of {old}, which is gone: is it the same part?"
+                hint = (
+                    f"if so, write `formerly: [{old}]` below `{new}:` in the inventory first: then it keeps its values"
+                )
+                hint = f"{hint}, and old commits, notes and recipes still find it"
+                yield warning("renamed", text, hint=hint, address=new)
 
 
 def waiting(place: Place) -> tuple[Diagnostic, ...]:

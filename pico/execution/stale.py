@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, diff_observed, show_value, value_distance
+from pico.model.lab import Lab
 from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import angle_between
 from pico.model.record import as_json
+from pico.model.renaming import Renaming, renamed_keys, renaming_between
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of, state_from_json
 
@@ -37,11 +40,28 @@ def stale(address: str, summary: str) -> Diagnostic:
 
 
 def edited(then: Setup, now: Setup) -> list[str]:
-    """Return what differs in two benches, as `differing` says it: `inventory.p3 added`. A type that comes or goes with
-    its parts is not told beside them."""
+    """Return what differs in two benches, as `differing` says it: `inventory.p3 added`, `p2 is now called p3`. A type
+    that comes or goes with its parts is not told beside them."""
+    names = renaming_between(then.lab, now.lab)
     both = then.catalog.keys() & now.catalog.keys()
-    before, after = (as_json({"lab": s.lab, "types": {n: s.catalog[n] for n in both}}) for s in (then, now))
-    return [path.removeprefix("lab.") for path in differing(before, after)]
+    before, after = (_as_called(names, s.lab) for s in (then, now))
+    differ = differing(*(
+        as_json({"lab": lab, "types": {n: s.catalog[n] for n in both}}) for lab, s in ((before, then), (after, now))
+    ))  # fmt: skip
+    was = {new: old for old, new in names.items() if old in then.lab.inventory or old in now.lab.inventory}
+    told = [f"{old} is now called {new}" if old in then.lab.inventory else f"{new} was called {old}"
+            for new, old in sorted(was.items())]  # fmt: skip
+    return [*told, *(path.removeprefix("lab.") for path in differ)]
+
+
+def _as_called(names: Renaming, lab: Lab) -> Lab:
+    """Return a lab by the present names of its parts, without what it says of former ones, which is told by itself."""
+    if not names:
+        return lab
+    parts = renamed_keys(names, lab.inventory)
+    return replace(lab, inventory={
+        name: replace(part, formerly=None) if name in names.values() else part for name, part in parts.items()
+    })  # fmt: skip
 
 
 def differing(a: Any, b: Any, path: str = "") -> list[str]:

@@ -18,6 +18,7 @@ from pico.history.repository.ranges import for_rev_list
 from pico.history.runs.committed import runs_added
 from pico.history.runs.proof import Standings
 from pico.model.diff import Change
+from pico.model.renaming import former_names, renaming_of
 
 _BATCHES = (1, 8, 64)
 """How many commits are read at once: first one, so that it can be shown."""
@@ -70,8 +71,10 @@ class Log:
     def notes(self) -> dict[str, tuple[Note, ...]]:
         """Return what people noted on the components that were asked for, as the working tree has it."""
         found = {}
-        for part in self.asked.scope.parts:
-            if said := notes({note_path(part): read_note(self.folder.root, part)}, part):
+        names, root = renaming_of(self.folder.setup.lab), self.folder.root
+        for part in (name for name in self.asked.scope.parts if name not in names):
+            called = (*former_names(self.folder.setup.lab, part), part)
+            if said := notes({note_path(name): read_note(root, name) for name in called}, *called):
                 found[part] = said
         return found
 

@@ -8,12 +8,14 @@ from dataclasses import dataclass, field
 from pico.manifest.text.kinds import NAME
 from pico.manifest.text.tree import Document, Map, Scalar
 from pico.model.catalog import Catalog, ComponentType
+from pico.model.renaming import Renaming, renaming_of
 from pico.model.setup import Setup
 
 
 @dataclass(frozen=True)
 class BenchView:
-    """The names that a state may use. `kinds` holds None for a part whose type is not known."""
+    """The names that a state may use. `kinds` holds None for a part whose type is not known; `formerly`: the present
+    names of parts by their former ones; `without`: components that are left out if the bench has no such part."""
 
     lab: str | None = None
     kinds: Mapping[str, ComponentType | None] = field(default_factory=dict)
@@ -21,6 +23,12 @@ class BenchView:
     homes: Mapping[str, str] = field(default_factory=dict)
     slots: Collection[str] = frozenset()
     size: tuple[float, float] | None = None
+    formerly: Renaming = field(default_factory=dict)
+    without: Collection[str] = ()
+
+    def name(self, word: str) -> str:
+        """Return the present name of the part that a word names."""
+        return self.formerly.get(word, word)
 
 
 def view_of(setup: Setup) -> BenchView:
@@ -33,6 +41,7 @@ def view_of(setup: Setup) -> BenchView:
         homes={name: part.home for name, part in parts.items() if part.home},
         slots=setup.lab.slots.keys(),
         size=setup.lab.table.size,
+        formerly=renaming_of(setup.lab),
     )
 
 

@@ -113,6 +113,7 @@ class _Reader:
                               f"expected `{self.said}: [{', '.join(KINDS[self.said].example)}]`")  # fmt: skip
             return
         assert isinstance(node, List)
+        names = [self.view.name(name) for name in names]
         wrong = [problem for item, name in zip(node.items, names, strict=True) for problem in self._part(item, name)]
         yield from wrong
         if names[0] == names[1]:

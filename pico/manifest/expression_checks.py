@@ -12,9 +12,11 @@ from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.manifest.text.tree import Document, List, Scalar
 from pico.manifest.text.within import inside
+from pico.model.renaming import Renaming, renamed_expression, renaming_of
 from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, cameras_of, functions_of, names_of
 
+_SAME: Renaming = {}
 _SPEAK = "expectations speak of a component's pose, slot, tunables and measurables: `p2.pose.x`, `distance(p1, p2)`"
 _RULES = "rules speak of plan, operations, components, lasers, lab, human_present and of components: `laser.shutter`"
 
@@ -61,7 +63,8 @@ def check_expectations(manifests: Manifests) -> list[Diagnostic]:
     language = Language(names_of(setup, [*setup.lab.inventory, *cameras_of(setup)]), functions_of(setup))
     documents = manifests.documents.get("LabState", ())
     what = "this expectation can't be told"
-    return [found for document in documents for found in _each(document, language, ("expect",), what, _SPEAK)]
+    names = renaming_of(setup.lab)
+    return [found for document in documents for found in _each(document, language, ("expect",), what, _SPEAK, names)]
 
 
 def _rules(document: Document, setup: Setup) -> Iterator[Diagnostic]:
@@ -79,17 +82,19 @@ def _rules(document: Document, setup: Setup) -> Iterator[Diagnostic]:
 
 
 def _each(
-    document: Document, language: Language, path: tuple[str, ...], what: str, hint: str
-) -> Iterator[Diagnostic]:  # fmt: skip
+    document: Document, language: Language, path: tuple[str, ...], what: str, hint: str, names: Renaming = _SAME
+) -> Iterator[Diagnostic]:
     entry = find(document, *path)
     for n, _ in enumerate(entry[1].items if entry and isinstance(entry[1], List) else ()):
         said = find(document, *path, n, "that")
         if said is None or not isinstance(said[1], Scalar):
             continue
+        text = renamed_expression(names, said[1].text)
         try:
-            language.compile(said[1].text)
+            language.compile(text)
         except ExpressionError as exc:
-            at = inside(document.source, said[1], exc.start, exc.end)
+            at = document.source.range(said[1].start, said[1].end)
+            at = at if text != said[1].text else inside(document.source, said[1], exc.start, exc.end)
             yield error("expression", f"{what}: {exc}", hint=exc.hint or hint, source=at)
 
 

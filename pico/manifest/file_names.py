@@ -17,13 +17,14 @@ _LIKE = (SUFFIX, ".yml")
 _DECLARED = re.compile(
     rb"""^(?:(?:\{[ \t]*)?['"]?apiVersion['"]?|[ \t{]*"apiVersion")[ \t]*:[ \t]*['"]?pico/""", re.MULTILINE
 )
+_KIND = re.compile(rb"""^[ \t{]*["']?kind["']?[ \t]*:[ \t]*["']?(\w+)""", re.MULTILINE)
 _MARKS = b"\xef\xbb\xbf\xff\xfe"
 # With `.yaml` somewhere in it; or without an extension, or with one for what is set aside.
 _ASIDE = re.compile(r"[.#]*(.+?)\.ya?ml(?![a-z]).*|[.#]*([^.]+?)(?:\.(?:bak|old|orig|save|off|disabled))?[~# ]*", re.I)
 UNSEEN, GONE = "unseen", "gone"
 AWAY = "delete it, or move it out of the lab's folder"
-BENCH_LAB, LAB_DIFFERS = "bench-lab", "lab-differs"
-TOLD = (UNSEEN, GONE, "symlink", BENCH_LAB, LAB_DIFFERS)
+BENCH_LAB, LAB_DIFFERS, RENAMED, EXCLUDED = "bench-lab", "lab-differs", "renamed", "excluded"
+TOLD = (UNSEEN, GONE, "symlink", BENCH_LAB, LAB_DIFFERS, RENAMED, EXCLUDED)
 """Codes of what a plan tells though nothing is wrong: of a file that is not read (one that nobody can look at, one
 deleted, a link), and of files that describe another bench than there is."""
 
@@ -63,6 +64,12 @@ def set_aside_from(path: str) -> str:
 def declares_api(data: bytes) -> bool:
     """Return whether a file declares PICO's apiVersion, whatever its name and its encoding are."""
     return bool(_DECLARED.search(data.replace(b"\0", b"").lstrip(_MARKS)))
+
+
+def is_recipe(data: bytes) -> bool:
+    """Return whether a file holds recipes and nothing else: no part of a state stands in it."""
+    kinds = _KIND.findall(data)
+    return bool(kinds) and set(kinds) == {b"Recipe"}
 
 
 def about(path: str, code: str, summary: str, hint: str) -> Diagnostic:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -24,6 +24,7 @@ from pico.manifest.text.tree import Document, Map, Scalar, parse
 from pico.manifest.weighing import weighed
 from pico.model.catalog import ComponentType
 from pico.model.lab import Lab
+from pico.model.renaming import former_names
 from pico.model.setup import Setup
 from pico.model.state import LabState
 
@@ -52,9 +53,10 @@ class Manifests:
         A key that is not there falls back to what holds it; a component that no state names, to the inventory.
         """
         head, *rest = address.split(".")
-        for document in self.documents.get("LabState", ()):
-            if find(document, "components", head):
-                return where(document, "components", head, *rest) if rest else where_key(document, "components", head)
+        called = (head, *(former_names(self.setup.lab, head) if self.setup else ()))
+        for document, name in ((d, name) for d in self.documents.get("LabState", ()) for name in called):
+            if find(document, "components", name):
+                return where(document, "components", name, *rest) if rest else where_key(document, "components", name)
         for document in self.documents.get("Lab", ()):
             path = [head, *rest] if find(document, head) else ["inventory", head, *rest]
             if entry := find(document, *path[:2]):
@@ -123,19 +125,23 @@ def load_folder(root: Path) -> Manifests:
 
 
 def load_files(
-    files: Mapping[str, bytes], found: Iterable[Diagnostic] = (), *, setup: Setup | None = None, root: str = ""
-) -> Manifests:
+    files: Mapping[str, bytes], found: Iterable[Diagnostic] = (), *, setup: Setup | None = None, root: str = "",
+    without: Collection[str] = (),
+) -> Manifests:  # fmt: skip
     """Return the manifests of files in memory, by path, as a Git tree has them.
 
     `found`: what was said of files that are not among them. With `setup` given, Lab and ComponentType documents are
-    skipped and the state is read against that bench. `root`: how diagnostics call the lab's folder.
+    skipped and the state is read against that bench. `root`: how diagnostics call the lab's folder. `without`:
+    components that are left out of the state where the bench has no such part.
     """
-    return _load(files, [*found], root, setup)
+    return _load(files, [*found], root, setup, without)
 
 
-def _load(files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None) -> Manifests:
+def _load(
+    files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None, without: Collection[str]
+) -> Manifests:
     documents, others = _documents(files, found)
-    setup, view = (setup, view_of(setup)) if setup else _bench(documents, found, root)
+    setup, view = (setup, replace(view_of(setup), without=without)) if setup else _bench(documents, found, root)
     if view:
         found.extend(wrong for other in others for wrong in headless(other, view.kinds))
     state = None

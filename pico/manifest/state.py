@@ -8,6 +8,7 @@ from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, slot_
 from pico.manifest.bench_view import BenchView
 from pico.manifest.by_light import read_reference, too_many
 from pico.manifest.checks.labs import off_table
+from pico.manifest.file_names import EXCLUDED, RENAMED
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
@@ -15,6 +16,7 @@ from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import Value
+from pico.model.renaming import renamed_expression
 from pico.model.state import ComponentState, Expectation, LabState, LightReference
 
 MOST_COMPONENTS = 200
@@ -55,6 +57,7 @@ class _Reader:
         self.expect: list[Expectation] = []
         self.found: list[Diagnostic] = []
         self.first: dict[str, Document] = {}
+        self.words: dict[str, str] = {}  # what a document calls a component, which may be a former name
 
     def read(self, document: Document) -> None:
         root = document.root
@@ -110,19 +113,40 @@ class _Reader:
             summary = f"{len(components.entries)} components in one file"
             hint = "split it: one file a sub-assembly, 10 to 50 components; states that branches change then merge"
             self.found.append(warning("large-file", summary, hint=hint, source=where_key(document, "components")))
-        for name, (key, node) in components.entries.items():
+        for word, (key, node) in components.entries.items():
+            name = self._present(document, word, key)
+            if name in self.view.without and name not in self.view.kinds:
+                at = document.source.range(key.start, key.end)
+                text = f"{name} is not in the inventory of this lab, and left out as asked"
+                self.found.append(Diagnostic("note", EXCLUDED, text, address=name, source=at))
+                continue
+            if name in self.first and self.words[name] != word:
+                detail = f"at {where_key(self.first[name], 'components', self.words[name])} as {self.words[name]}"
+                hint = f"keep one of the two: {name} is the name of now"
+                summary = f"{self.words[name]} and {word} are one part, which is now called {name}"
+                self._error(document, key, "duplicate", summary, hint, name, detail=detail)
+                continue
             if name in self.first:
-                first = where_key(self.first[name], "components", name)
+                first = where_key(self.first[name], "components", self.words[name])
                 hint = "keep one of the two"
                 self._error(
                     document, key, "duplicate", f"{name} is in two files", hint, name, detail=f"first at {first}"
                 )
                 continue
-            self.first[name] = document
+            self.first[name], self.words[name] = document, word
             if name not in self.view.kinds:
                 self._unknown(document, key)
             else:
                 self._component(document, name, key, node)
+
+    def _present(self, document: Document, word: str, key: Scalar) -> str:
+        """Return the present name of a component that may be named as it was before."""
+        name = self.view.name(word)
+        if name != word:
+            at = document.source.range(key.start, key.end)
+            hint = f"write `{name}:` here"
+            self.found.append(warning(RENAMED, f"{word} is now called {name}", hint=hint, address=name, source=at))
+        return name
 
     def _belongs(self, key: str) -> str:
         """Return where a key belongs that is the name of a component."""
@@ -281,11 +305,12 @@ class _Reader:
                     self._error(document, at, "unknown-key", summary, did_you_mean(key[:40], ("that", "message")))
                 elif not isinstance(data[key], str):
                     self._error(document, value, "type", f"`{key}` is {shown(data[key])}", "expected text")
-            self.expect.append(Expectation(that=data["that"], message=str(data.get("message") or "")))
+            that = renamed_expression(self.view.formerly, data["that"])
+            self.expect.append(Expectation(that=that, message=str(data.get("message") or "")))
 
     def place(self, name: str, key: str) -> SourceRange:
         """Return where a component has what a key says of it."""
-        return where(self.first[name], "components", name, key)
+        return where(self.first[name], "components", self.words[name], key)
 
     def _slot_error(self, name: str, summary: str, detail: str) -> None:
         hint = "give one of them another slot or a pose, or take back with `git revert` the commit that did it"

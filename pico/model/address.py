@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
+from pico.model.renaming import called_now, renaming_of
 from pico.model.setup import Setup
 
 Named = Mapping[str, frozenset[str] | None]
@@ -12,10 +13,12 @@ Named = Mapping[str, frozenset[str] | None]
 
 
 def read_addresses(setup: Setup, words: Iterable[str]) -> Named:
-    """Return what `words` name, by component; raises PicoError for each that the lab does not have."""
+    """Return what `words` name, by component, which may be named as it was before; raises PicoError for each that the
+    lab does not have."""
+    names = renaming_of(setup.lab)
     found: dict[str, frozenset[str] | None] = {}
     wrong: list[Diagnostic] = []
-    for word in sorted(set(words)):
+    for word in sorted({called_now(names, word) for word in words}):
         component, _, tunable = word.partition(".")
         problem = _problem(setup, word, component, tunable)
         if problem:

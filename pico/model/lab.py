@@ -151,7 +151,8 @@ class Part:
     otherwise than its type says, such as `{tip: {kind: align, trim: 12, goal: centred}}`. `measured`: of parameters and
     calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`.
     `sample`: which one it holds (`WSe2-041`): no plan to a state moves it unless it is named. `dose_budget`: how much
-    light that may have in all [mJ]."""
+    light that may have in all [mJ]. `formerly`: the names that the part had before, by which commits, recipes and
+    notes of then know it."""
 
     type: str
     marker: int | None = None
@@ -169,6 +170,7 @@ class Part:
     measured: Mapping[str, Known] | None = None
     sample: str | None = None
     dose_budget: float | None = None
+    formerly: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         if self.dose_budget is not None and (not self.sample or self.dose_budget <= 0):

@@ -16,6 +16,7 @@ from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
 from pico.model.quantities import QuantityError, Value, convert
 from pico.model.record import as_json, record
+from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
@@ -58,7 +59,9 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
 def require_component(setup: Setup, name: str) -> None:
     """Raise PicoError where the inventory has no part of that name."""
     if name not in setup.lab.inventory:
-        hint = did_you_mean(name, setup.lab.inventory) or "`pico catalog parts` lists them"
+        now = renaming_of(setup.lab).get(name)
+        hint = f"it is now called `{now}`" if now else ""
+        hint = hint or did_you_mean(name, setup.lab.inventory) or "`pico catalog parts` lists them"
         if name in setup.lab.cameras:
             _refuse_on_arm(setup, name)
             hint = f"`{name}` is a camera over the bench: `pico get {name}.frame` peeks at what it sees"

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.text.kinds import API
 from pico.manifest.text.source import Source
-from pico.manifest.text.tree import Map, Node, Scalar, parse
+from pico.manifest.text.tree import Document, Map, Node, Scalar, parse
+from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
+from pico.recipes.former_names import by_present_names
 from pico.recipes.parameters import read_parameters
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading_figures import read_figures, read_notes
@@ -32,13 +35,33 @@ def read_recipe(
     source: Source, setup: Setup, fetch: Fetch, able: Able | None = None, above: tuple[str, ...] = (),
     bench: Mapping[str, Name] | None = None, made: set[str] | None = None,
 ) -> tuple[Recipe | None, list[Diagnostic]]:  # fmt: skip
-    """Return the recipe of a text, and all that is wrong with it on this bench; None where it can't be read."""
+    """Return the recipe of a text, and all that is wrong with it on this bench; None where it can't be read.
+
+    One that is wrong as it stands is read by the present names of parts that it calls as they were called before.
+    """
     documents, found = parse(source)
     if found or len(documents) != 1 or not isinstance(documents[0].root, Map):
         text = "a recipe is one mapping of keys to values"
         return None, found or [error("recipe", text, hint=f"begin it with `apiVersion: {API}`", source=source.range(0))]
-    document, root = documents[0], documents[0].root
-    reader = Reader(document, setup, found, able or Able(), made)
+    before = None if made is None else set(made)
+    recipe, found = _read(documents[0], setup, fetch, able or Able(), above, bench, before)
+    renamed = by_present_names(documents[0], renaming_of(setup.lab)) if found else None
+    if renamed is not None:
+        before = None if made is None else set(made)
+        recipe, found = _read(renamed.document, setup, fetch, able or Able(), above, bench, before)
+        recipe = replace(recipe, told=tuple(dict.fromkeys((*renamed.told, *recipe.told))))
+    if made is not None and before is not None:
+        made |= before
+    return recipe, found
+
+
+def _read(
+    document: Document, setup: Setup, fetch: Fetch, able: Able, above: tuple[str, ...],
+    bench: Mapping[str, Name] | None, made: set[str] | None,
+) -> tuple[Recipe, list[Diagnostic]]:  # fmt: skip
+    source, root, found = document.source, document.root, list[Diagnostic]()
+    assert isinstance(root, Map)
+    reader = Reader(document, setup, found, able, made)
     names, called = bench_names(setup) if bench is None else bench, list[Recipe]()
 
     def call(node: Node) -> Recipe | None:
@@ -63,7 +86,7 @@ def read_recipe(
     recipe = Recipe(
         **about, parameters=parameters, steps=steps, finally_=finally_, returns=returns, returned=returned,
         figures=read_figures(reader, returned, root.get("figures")), notes=read_notes(reader, root.get("notes")),
-        digest=f"sha256:{digest}", path=source.path, unattended=alone,
+        digest=f"sha256:{digest}", path=source.path, unattended=alone, told=tuple(dict.fromkeys(d for r in called for d in r.told)),
     )  # fmt: skip
     return recipe, found
 

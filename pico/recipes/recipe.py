@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from datetime import time
 from typing import Any, Literal
 
-from pico.diagnostics import SourceRange
+from pico.diagnostics import Diagnostic, SourceRange
 from pico.expressions import Kind
 from pico.model.arming import LaserClass
 from pico.model.trace.unattended import ENDS
@@ -189,7 +189,7 @@ class Figure:
 class Recipe:
     """An experiment. `digest`: of its text and of those that it calls; `returns`: values that a call has by
     name, `returned` what they are; `unattended`: what it states of runs where nobody is there. `figures` of what it
-    returns by name; `notes` stand on each."""
+    returns by name; `notes` stand on each. `told`: warnings about it."""
 
     name: str
     title: str = ""
@@ -205,6 +205,7 @@ class Recipe:
     digest: str = ""
     path: str = ""
     unattended: Unattended | None = None
+    told: tuple[Diagnostic, ...] = ()
 
 
 def blocks(step: Step) -> Sequence[tuple[str, tuple[Step, ...]]]:

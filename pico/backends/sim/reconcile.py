@@ -9,6 +9,7 @@ from pico.diagnostics import Diagnostic, warning
 from pico.geometry.shape import placed, separation
 from pico.model.observation import UnknownObject
 from pico.model.pose import Pose
+from pico.model.renaming import called_now, renamed_keys, renaming_of
 from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 
@@ -20,6 +21,7 @@ def reconcile(setup: Setup, world: World) -> tuple[World, tuple[Diagnostic, ...]
     where it stands, as an unknown object; where the inventory takes it up again, it is that part again.
     """
     found: list[Diagnostic] = []
+    world = _renamed(setup, world, found)
     world = _without_lost(setup, world, found)
     world = replace(world, lab=setup.lab.name, shapes=shapes_of(setup))
     world = _with_new(setup, world, found)
@@ -32,6 +34,26 @@ def reconcile(setup: Setup, world: World) -> tuple[World, tuple[Diagnostic, ...]
 def stranger(name: str, marker: int | None) -> str:
     """Return the name under which a part that the inventory does not have is seen."""
     return f"unknown/{name if marker is None else marker}"
+
+
+def _renamed(setup: Setup, world: World, found: list[Diagnostic]) -> World:
+    """Return the world with parts under their present names that it knows by former ones (`formerly:`)."""
+    names = {
+        old: new for old, new in renaming_of(setup.lab).items()
+        if old in world.components and new not in world.components
+    }  # fmt: skip
+    if not names:
+        return world
+    for old, new in sorted(names.items()):
+        found.append(Diagnostic("note", "part-renamed", f"{old} is now called {new}", address=new))
+    robots = {k: replace(r, holding=names.get(r.holding or "", r.holding)) for k, r in world.robots.items()}
+    return replace(
+        world,
+        components=renamed_keys(names, world.components),
+        robots=robots,
+        stickers={called_now(names, key): marker for key, marker in world.stickers.items()},
+        stuck=tuple(called_now(names, axis) for axis in world.stuck),
+    )
 
 
 def _without_lost(setup: Setup, world: World, found: list[Diagnostic]) -> World:

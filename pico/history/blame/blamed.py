@@ -10,6 +10,7 @@ from typing import Any
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.history.blame.answer import Answer, BlamedRow, Unread
 from pico.history.blame.edits import with_edits
+from pico.history.blame.flat import flatten
 from pico.history.blame.follow import Address, LeafNode
 from pico.history.blame.how import How, how
 from pico.history.blame.leaves import POSE, Leaf, canonical, shown
@@ -18,10 +19,12 @@ from pico.history.git.commit import Commit
 from pico.history.lab.notes import Note, note_path, notes
 from pico.history.repository.repository import Repository
 from pico.manifest.file_names import MAX_BYTES
+from pico.manifest.files import read_folder
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value
 from pico.model.pose import Pose
 from pico.model.record import record
+from pico.model.renaming import Renaming
 
 
 @record
@@ -92,11 +95,12 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
     try:
         found = walker.answer(commit) if commit else Answer()
         whole = found if at is not None else with_edits(walker, root, commit, found)
-        rows = _chosen(whole.rows, what)
+        names = _renaming(root) if what else {}
+        rows = _chosen(whole.rows, [_called(names, word, whole.rows) for word in what])
         turns = _Turns(walker, whole, rows.values(), history=history)
         leaves = tuple(turns.leaf(address, row) for address, row in rows.items())
         parts = dict.fromkeys(leaf.component for leaf in leaves) if what else ()
-        noted = {part: _notes(walker, root, commit if at else None, part) for part in parts}
+        noted = {part: _notes(walker, root, commit if at else None, part, names) for part in parts}
     finally:
         walker.cache.close()
     return Blamed(
@@ -109,15 +113,31 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
     )
 
 
-def _notes(walker: Walker, root: Path, commit: str | None, part: str) -> tuple[Note, ...]:
-    """Return the notes on a part, at a commit or in the working tree."""
-    path = note_path(part)
-    if commit:
-        data = walker.content(commit, path)
-    else:
+def _renaming(root: Path) -> Renaming:
+    """Return the present names of the parts of the lab in `root` by their former ones."""
+    files, _ = read_folder(root)
+    return {old: new for data in files.values() for new, names in flatten(data).formerly.items() for old in names}
+
+
+def _called(names: Renaming, word: str, rows: Iterable[Address]) -> str:
+    """Return a word as the rows call its component, which may have another name by now, or had one then."""
+    component, there = word.partition(".")[0], {at[0] for at in rows}
+    now = names.get(component, component)
+    known = (component, now, *(old for old, new in names.items() if new == now))
+    return next((name for name in known if name in there), component) + word[len(component) :]
+
+
+def _notes(walker: Walker, root: Path, commit: str | None, part: str, names: Renaming) -> tuple[Note, ...]:
+    """Return the notes on a part, at a commit or in the working tree, those on its former names included."""
+    called = (*(old for old, new in names.items() if new == part), part)
+    found = {}
+    for path in map(note_path, called):
         file = root / path
-        data = file.read_bytes()[:MAX_BYTES] if file.is_file() and not file.is_symlink() else b""
-    return notes({path: data}, part)
+        if commit:
+            found[path] = walker.content(commit, path)
+        elif file.is_file() and not file.is_symlink():
+            found[path] = file.read_bytes()[:MAX_BYTES]
+    return notes(found, *called)
 
 
 def _chosen(rows: Mapping[Address, BlamedRow], what: Sequence[str]) -> dict[Address, BlamedRow]:

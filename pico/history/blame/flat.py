@@ -3,36 +3,37 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from pico.history.blame.leaves import Leaf, leaves_of, place_of
 from pico.history.blame.lines import read_lines
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
-from pico.manifest.text.tree import Document, Map, Scalar, parse, plain
+from pico.manifest.text.tree import Document, List, Map, Scalar, parse, plain
 
 
 @dataclass(frozen=True, slots=True)
 class Flat:
     """One manifest: `state`, by component the leaves that its LabStates give (a slot counts as the `pose`);
     `inventory`, by part its type and where it is when no state says; `units`, by type those of its tunables;
-    `wrong`: why it can't be read."""
+    `formerly`, by part the names that it had before; `wrong`: why it can't be read."""
 
     state: Mapping[str, Mapping[str, Leaf]] = field(default_factory=dict)
     inventory: Mapping[str, tuple[str, Leaf]] = field(default_factory=dict)
     units: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     wrong: str = ""
+    formerly: Mapping[str, Sequence[str]] = field(default_factory=dict)
 
     def dumps(self) -> str:
         """Return it as JSON, for `loads`."""
-        return json.dumps([self.state, self.inventory, self.units, self.wrong], separators=(",", ":"))
+        return json.dumps([self.state, self.inventory, self.units, self.wrong, self.formerly], separators=(",", ":"))
 
 
 def loads(text: str) -> Flat:
     """Return what `Flat.dumps` wrote; raises ValueError, TypeError or AttributeError for anything else."""
-    state, inventory, units, wrong = json.loads(text)
-    return Flat(state, {name: (kind, home) for name, (kind, home) in inventory.items()}, units, wrong)
+    state, inventory, units, wrong, formerly = json.loads(text)
+    return Flat(state, {name: (kind, home) for name, (kind, home) in inventory.items()}, units, wrong, formerly)
 
 
 def flatten(data: bytes) -> Flat:
@@ -50,7 +51,7 @@ def parsed(data: bytes) -> Flat:
     wrong = next((d.summary for d in found if d.severity == "error"), "")
     if source is None or wrong:
         return Flat(wrong=wrong)
-    flat = Flat({}, {}, {})
+    flat = Flat({}, {}, {}, formerly={})
     for document in documents:
         kind, found = kind_of(document)
         wrong = "" if kind else next((d.summary for d in found), "")
@@ -69,11 +70,14 @@ def _state(root: Map, flat: Flat) -> None:
 
 
 def _lab(root: Map, flat: Flat) -> None:
-    assert isinstance(flat.inventory, dict)
+    assert isinstance(flat.inventory, dict) and isinstance(flat.formerly, dict)
     inventory = root.get("inventory")
     for name, (_, part) in inventory.entries.items() if isinstance(inventory, Map) else ():
         kind = part.get("type") if isinstance(part, Map) else None
         flat.inventory[name] = (kind.text if isinstance(kind, Scalar) else "", place_of(part, "home"))
+        former = part.get("formerly") if isinstance(part, Map) else None
+        if isinstance(former, List):
+            flat.formerly[name] = [item.text for item in former.items if isinstance(item, Scalar)]
 
 
 def _type(root: Map, flat: Flat) -> None:

@@ -54,6 +54,7 @@ class Blame:
     _states: dict[str, tuple[str, ...]] = field(default_factory=dict)  # component -> the files that state it
     _parts: dict[str, tuple[str, ...]] = field(default_factory=dict)  # part -> the files whose inventory has it
     _types: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    _names: dict[str, str] = field(default_factory=dict)  # former name of a part -> the present one
 
     @classmethod
     def of(cls, files: Mapping[str, Flat], nodes: Mapping[Address, LeafNode]) -> Blame:
@@ -61,16 +62,20 @@ class Blame:
         blame = cls(dict(nodes))
         for path, flat in files.items():
             blame._put(path, flat)
+        blame._names = blame._renaming()
         return blame
 
     def copy(self) -> Blame:
         """Return a copy that can go its own way."""
-        return Blame(dict(self.nodes), dict(self.files), dict(self._states), dict(self._parts), dict(self._types))
+        return Blame(
+            dict(self.nodes), dict(self.files), dict(self._states), dict(self._parts), dict(self._types),
+            dict(self._names),
+        )  # fmt: skip
 
     def leaves(self, component: str) -> dict[str, Leaf]:
         """Return the leaves of a component; one that no state places is where its inventory has it."""
-        stated = self._states.get(component)
-        found = dict(self.files[stated[0]].state[component]) if stated else {}
+        called = next((name for name in (component, *self._former(component)) if name in self._states), "")
+        found = dict(self.files[self._states[called][0]].state[called]) if called else {}
         home = self._part(component)[1]
         if home and POSE not in found:
             found[POSE] = home
@@ -83,8 +88,8 @@ class Blame:
         return (self.files[own[0]].units[kind] if own else packaged(kind)).get(tunable)
 
     def components(self) -> Iterable[str]:
-        """Return every component that a state or the inventory names."""
-        return self._states.keys() | self._parts.keys()
+        """Return every component that a state or the inventory names, by its present name."""
+        return {self._names.get(name, name) for name in self._states} | self._parts.keys()
 
     def put(self, delta: Delta, commit: str, packaged: Units, others: Sequence[Blame] = ()) -> None:
         """Go on to a commit that differs by `delta` from this one, its first parent; `others`: its other parents.
@@ -93,19 +98,40 @@ class Blame:
         """
         readable = {path: flat for path, flat in delta.items() if not (flat and flat.wrong)}
         touched = {name for path, flat in readable.items() for name in _touched(self.files.get(path), flat)}
+        touched |= {self._names[name] for name in touched if name in self._names}
         before = {name: self.leaves(name) for name in touched}
         for path, flat in readable.items():
             self._put(path, flat)
-        for name in touched:
+        self._rename(readable, before)
+        for name in {self._names.get(name, name) for name in before}:
             was, now = before[name], self.leaves(name)
             for tunable in was.keys() | now.keys():
                 old, new = was.get(tunable), now.get(tunable)
                 if old != new and not self._same((name, tunable), old, new, packaged):
                     self._change((name, tunable), new, commit, packaged, others)
 
+    def _rename(self, delta: Delta, before: dict[str, dict[str, Leaf]]) -> None:
+        """Let parts that were renamed by `delta` keep their nodes, and what they were `before` that."""
+        if not any(flat is None or flat.inventory for flat in delta.values()):
+            return
+        known, self._names = self._names, self._renaming()
+        for old, new in self._names.items() - known.items():
+            if not before.get(new):
+                before[new] = before.pop(old, {})
+            for at in [at for at in self.nodes if at[0] == old and (new, at[1]) not in self.nodes]:
+                self.nodes[new, at[1]] = self.nodes.pop(at)
+
+    def _renaming(self) -> dict[str, str]:
+        found = {old: new for flat in self.files.values() for new, names in flat.formerly.items() for old in names}
+        return {old: new for old, new in found.items() if old not in self._parts}
+
+    def _former(self, component: str) -> Iterator[str]:
+        return (old for old, new in self._names.items() if new == component)
+
     def _change(self, at: Address, new: Leaf | None, commit: str, packaged: Units, others: Sequence[Blame]) -> None:
         for other in others:
-            theirs = other.nodes.get(at)
+            called = (at[0], *self._former(at[0]))
+            theirs = next((other.nodes[name, at[1]] for name in called if (name, at[1]) in other.nodes), None)
             if self._same(at, theirs.value if theirs else None, new, packaged):
                 if theirs:
                     self.nodes[at] = theirs

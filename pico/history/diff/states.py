@@ -14,6 +14,7 @@ from pico.history.repository.ranges import ends_of
 from pico.manifest.files import read_folder, states_alone
 from pico.model.diff import Change
 from pico.model.record import record
+from pico.model.renaming import renaming_of
 
 
 @record
@@ -49,6 +50,7 @@ def compare(folder: LabFolder, a: str | None = None, b: str | None = None, scope
         raise folder.wrong
     sides = folder.historic(first), folder.historic(last) if last else (folder.setup, folder.state)
     known = {name for setup, state in sides for name in (*setup.lab.inventory, *state.components)}
+    known |= renaming_of(folder.setup.lab).keys() & asked.parts.keys()
     if wrong := [_unknown(name, known) for name in asked.parts if name not in known]:
         raise PicoError(wrong)
     old, new = _files(folder, first), _files(folder, last)

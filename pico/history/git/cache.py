@@ -13,7 +13,7 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-VERSION = 2
+VERSION = 3
 """Of the tables and of what is in them; a file of another version is made anew."""
 MOST_BYTES = 64 * 1024 * 1024
 """Beyond this the older half of what was read goes. A thousand commits to 40 files take about 1 MB."""

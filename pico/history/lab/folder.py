@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
@@ -20,12 +20,13 @@ from pico.history.lab.notes import Note, note_path, notes, read_note, require_pa
 from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
-from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS
+from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS, RENAMED
 from pico.manifest.files import bench_files, read_folder, shown_path, states_alone
 from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named
 from pico.model.diff import Change, diff_states
 from pico.model.record import record
+from pico.model.renaming import former_names, renamed_keys, renamed_state, renaming_between, renaming_of
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 from pico.places.lab import own_folder
@@ -34,6 +35,7 @@ if TYPE_CHECKING:
     from pico.edge.network.remotes import Place
     from pico.edge.protocol import OwnLab
     from pico.history.repository.repository import Repository
+    from pico.manifest.changes import Changes
     from pico.model.trace.expectation import Standing
     from pico.model.trace.report import Captured
     from pico.model.trace.run import Run
@@ -214,16 +216,17 @@ class LabFolder:
         """
         return self.manifests_at(revision).require()[1]
 
-    def manifests_at(self, revision: str) -> Manifests:
-        """Return the manifests of a revision, its states read against the bench as it is now."""
+    def manifests_at(self, revision: str, *, without: Collection[str] = ()) -> Manifests:
+        """Return the manifests of a revision, its states read against the bench as it is now; those of the components
+        `without` which that has no part are left out."""
         found: list[Diagnostic] = []
         try:
             files = self.history().files(revision, self.root, found)
         except PicoError as exc:
             raise PicoError([_no_revision(d, revision, self.setup) for d in exc.diagnostics]) from exc
         found += gone_at(self.history(), self.root, revision, files)
-        manifests = load_files(_named(revision, files), found, setup=self.setup)
-        told = [_at_revision(d, revision) for d in manifests.diagnostics]
+        manifests = load_files(_named(revision, files), found, setup=self.setup, without=without)
+        told = [_at_revision(d, revision) for d in manifests.diagnostics if d.code != RENAMED]
         then = self._bench_at(revision, files)
         if then is not None and not then.same_as(self.setup):
             told.append(_differs(then, self.setup, revision))
@@ -264,6 +267,7 @@ class LabFolder:
         except PicoError:
             return None
         lab = self.setup.lab
+        state = renamed_state(renaming_of(lab), state)
         fitting = {
             name: part
             for name, part in state.components.items()
@@ -328,9 +332,18 @@ class LabFolder:
         """Write what `goal` says of `named` into the manifests, as it says it; raises PicoError. Without `write`, say
         what would be written."""
         from pico.manifest.changes import asked_for
-        from pico.manifest.edit import spliced
 
-        return self._written(lambda: spliced(self._files, asked_for(self.setup, self.state, goal, named)), write)
+        return self._written(lambda: self._with(asked_for(self.setup, self.state, goal, named)), write)
+
+    def _with(self, changes: Changes) -> dict[str, bytes]:
+        """Return the manifests that must change for `changes` to be made in them, components by their present names if
+        the working tree's Lab has those."""
+        from pico.manifest.edit import spliced
+        from pico.manifest.present_names import as_files_name, with_present_names
+
+        names, known = renaming_of(self.setup.lab), self.described.lab.inventory
+        made = spliced(self._files, as_files_name(self._files, changes, names, known))
+        return {**made, **with_present_names({**self._files, **made}, names, known)} if made else {}
 
     def _written(self, splicing: Callable[[], dict[str, bytes]], write: bool) -> Captured:
         """Write what `splicing` makes of the files as they are by then; without `write`, say what it would."""
@@ -350,9 +363,9 @@ class LabFolder:
         return captured, manifests.require()[1]
 
     def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
-        from pico.manifest.edit import capture
+        from pico.manifest.changes import differences
 
-        return capture(self._files, self.setup, self.state, live, named)
+        return self._with(differences(self.setup, self.state, live, named))
 
     def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
         from pico.model.trace.report import Captured
@@ -369,12 +382,13 @@ class LabFolder:
 
     def notes(self, part: str) -> tuple[Note, ...]:
         """Return what people noted on a part, oldest first; raises PicoError where there is no such part."""
-        require_part(self.setup, part)
-        return notes({note_path(part): read_note(self.root, part)}, part)
+        part = require_part(self.setup, part)
+        called = (*former_names(self.setup.lab, part), part)
+        return notes({note_path(name): read_note(self.root, name) for name in called}, *called)
 
     def note(self, part: str, text: str) -> Note:
         """Note something on a part; its author and day are those that git would give a commit. Raises PicoError."""
-        require_part(self.setup, part)
+        part = require_part(self.setup, part)
         author, day = git.author(self.root)
         with self.writing("pico note"):
             path = self.root / note_path(part)
@@ -427,19 +441,24 @@ def _at_revision(d: Diagnostic, revision: str) -> Diagnostic:
     """Return a diagnostic of a state from history: what the bench lacks now, it may have had then."""
     if d.code != "unknown-component":
         return d
-    hint = f"{revision} was made when the bench had it: take it into `inventory` again, or go to another revision"
+    name = d.address.partition(".")[0]
+    hint = f"{revision} was made when the bench had it: take it into `inventory` again, or leave it out with `--exclude"
+    hint = f"{hint} {name}`. If it has another name now, give that part `formerly: [{name}]`"
     return replace(d, hint=hint)
 
 
 def between(a: tuple[Setup, LabState], b: tuple[Setup, LabState]) -> tuple[Change, ...]:
     """Return what differs between two states, each with its own bench; where the benches differ, the later counts."""
     (bench_a, state_a), (bench_b, state_b) = a, b
+    names = renaming_between(bench_a.lab, bench_b.lab)
+    inventories = (renamed_keys(names, bench.lab.inventory) for bench in (bench_a, bench_b))
     lab = replace(
         bench_b.lab,
-        inventory={**bench_a.lab.inventory, **bench_b.lab.inventory},
+        inventory={name: part for inventory in inventories for name, part in inventory.items()},
         slots={**bench_a.lab.slots, **bench_b.lab.slots},
     )
-    return diff_states(Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog}), state_a, state_b)
+    both = Setup(lab=lab, catalog={**bench_a.catalog, **bench_b.catalog})
+    return diff_states(both, renamed_state(names, state_a), renamed_state(names, state_b))
 
 
 def _patch(name: str, before: bytes, after: bytes) -> str:

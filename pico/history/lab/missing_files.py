@@ -18,7 +18,7 @@ from pico.history.git.unread import content_of, no_copies, submodule
 from pico.history.git.unread import modules as modules_of
 from pico.history.lab.unread_states import unread_states
 from pico.manifest.edit import components_of
-from pico.manifest.file_names import AWAY, GONE, about, declares_api, left_out, set_aside
+from pico.manifest.file_names import AWAY, GONE, about, declares_api, is_recipe, left_out, set_aside
 from pico.manifest.files import shown_path
 from pico.manifest.links import small_state
 
@@ -72,7 +72,7 @@ def _missing(
     lead = f"{inside}/" if (inside := repository.relative(root)) else ""
     tags = {p.removeprefix(lead): tag for p, tag in _tags(repository, inside).items()}
     lost = [(path, content_of(entry) or b"") for path, entry in sorted(away.items())]
-    lost = [(path, data) for path, data in lost if declares_api(data)]
+    lost = [(path, data) for path, data in lost if declares_api(data) and not is_recipe(data)]
     kept_out = [_kept_out(root, path, tags.get(path, ""), there.keys()) for path, _ in lost]
     gone |= {path: components_of(data) for (path, data), d in zip(lost, kept_out, strict=True) if d is None}
     kept_out += [submodule(repository, lead + p, str(e.id), _shown(root, p)) for p, e in modules.items() if p in tags]

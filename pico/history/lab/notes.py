@@ -9,6 +9,7 @@ from pathlib import Path, PurePosixPath
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.manifest.file_names import MAX_BYTES
 from pico.model.record import record
+from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 
 FOLDER = "notes"
@@ -25,11 +26,13 @@ class Note:
     author: str = ""
 
 
-def require_part(setup: Setup, part: str) -> None:
-    """Raise PicoError where the bench has no such part."""
-    if part not in setup.lab.inventory:
+def require_part(setup: Setup, part: str) -> str:
+    """Return the present name of a part, which may be named as it was before; raises PicoError for another word."""
+    name = renaming_of(setup.lab).get(part, part)
+    if name not in setup.lab.inventory:
         hint = did_you_mean(part, setup.lab.inventory)
         raise PicoError(error("unknown-component", f"the lab has no part `{part}`", hint=hint))
+    return name
 
 
 def note_path(part: str) -> str:
@@ -43,10 +46,11 @@ def is_note(path: str) -> bool:
     return found.suffix == ".md" and found.parts[:-1] == (FOLDER,) and not found.name.startswith(".")
 
 
-def notes(files: Mapping[str, bytes], part: str) -> tuple[Note, ...]:
-    """Return the notes on a part, oldest first, from the files of a lab by path relative to it."""
-    text = files.get(note_path(part), b"").decode("utf-8", errors="replace")
-    lines = (line.strip() for line in text.splitlines())
+def notes(files: Mapping[str, bytes], *names: str) -> tuple[Note, ...]:
+    """Return the notes on a part by its `names`, present and former ones, oldest first, from the files of a lab by path
+    relative to it."""
+    texts = (files.get(note_path(name), b"").decode("utf-8", errors="replace") for name in names)
+    lines = (line.strip() for text in texts for line in text.splitlines())
     return tuple(sorted((_read(line) for line in lines if line and not line.startswith("#")), key=lambda n: n.day))
 
 

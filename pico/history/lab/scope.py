@@ -11,6 +11,7 @@ from pico.history.git import command as git
 from pico.history.lab.folder import LabFolder
 from pico.model.address import read_addresses
 from pico.model.diff import Change
+from pico.model.renaming import called_now, former_names, renaming_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +45,8 @@ class Scope:
 def read_scope(folder: LabFolder, words: Sequence[str], at: Path, *, past: bool = False) -> Scope:
     """Return what `words` name; paths are relative to the folder `at`.
 
-    With `past`, a component that the bench does not have now is taken as one that it had. Raises PicoError for paths
+    With `past`, a component that the bench does not have now is taken as one that it had, and the former names of one
+    that it has are named with it. Raises PicoError for paths
     outside the lab or that no commit has, and for names that nothing has, each with the nearest one.
     """
     parts: list[str] = []
@@ -59,6 +61,7 @@ def read_scope(folder: LabFolder, words: Sequence[str], at: Path, *, past: bool 
             paths.append(_inside(folder, word, at))
         except PicoError as exc:
             wrong += exc.diagnostics
+    parts = [called_now(renaming_of(folder.setup.lab), word) for word in parts]
     gone = [word for word in parts if past and word.partition(".")[0] not in inventory]
     try:
         named = dict(read_addresses(folder.setup, [word for word in parts if word not in gone]))
@@ -69,12 +72,14 @@ def read_scope(folder: LabFolder, words: Sequence[str], at: Path, *, past: bool 
     for word in gone:
         component, _, tunable = word.partition(".")
         named[component] = frozenset({tunable}) if tunable else None
+    for name in [*named] if past else ():
+        named |= dict.fromkeys(former_names(folder.setup.lab, name), named[name])
     return Scope(named, tuple(dict.fromkeys(paths)))
 
 
 def unknown_parts(folder: LabFolder, scope: Scope) -> list[Diagnostic]:
     """Return an error for each component of a scope that the bench does not have now."""
-    known = folder.setup.lab.inventory
+    known = {*folder.setup.lab.inventory, *renaming_of(folder.setup.lab)}
     return [
         error(
             "unknown-component",

@@ -17,6 +17,7 @@ from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
 from pico.history.messages import trailers
 from pico.history.runs.committed import CACHE, RunPlace, files_at, places_in_history, read_carried, runs_added
+from pico.model.renaming import renamed_state, renaming_of
 from pico.model.trace.expectation import Standing, Verdict
 from pico.model.trace.run import STRENGTH, Run
 from pico.runs.files import intact
@@ -84,6 +85,24 @@ class Standings:
             self._cache.flush()
         return known
 
+    def _as_called(self, commit: Commit, state: str) -> str:
+        """Return the digest under which runs or the commit know its state: `state`, or that of the state by the other
+        names that parts have now or had before."""
+        names = renaming_of(self.folder.setup.lab)
+        told = trailers.values(commit.message, trailers.STATE)
+        if not names or state in self.runs:
+            return state
+        if self._cache is None:
+            self._cache = Cache(self.folder.history().common / CACHE)
+        key = f"{self._bench} {commit.id} names"
+        known = self._cache.get(key)
+        if known is None:
+            own, before = self.folder.historic(commit.id)[1], {new: old for old, new in names.items()}
+            known = " ".join(renamed_state(way, own).digest() for way in (names, before))
+            self._cache.put(key, known)
+            self._cache.flush()
+        return next((one for one in known.split() if one in self.runs or one in told), state)
+
     @cached_property
     def _bench(self) -> str:
         from pico import __version__
@@ -93,7 +112,7 @@ class Standings:
     def of(self, commit: Commit, state: str | None = None) -> Standing:
         """Return the standing of a commit; `state`: the digest of its state, where that is known already."""
         try:
-            state = state or self._state(commit)
+            state = self._as_called(commit, state or self._state(commit))
         except PicoError as exc:
             return Standing(verdict="unknown", commit=commit.id, why=exc.diagnostics[0].summary)
         wrong: list[Diagnostic] = []

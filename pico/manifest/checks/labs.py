@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warning
 from pico.manifest.checks.cameras import check_cameras, check_view
+from pico.manifest.checks.former_names import check_former_names
 from pico.manifest.checks.own_parameters import lasting, unattached
 from pico.manifest.checks.trims import check_own_trims
 from pico.manifest.text.names import check_names, check_own_name
@@ -25,6 +26,7 @@ BEAM_HEIGHT_MISMATCH = 0.5
 def check_lab(document: Document, lab: Lab) -> list[Diagnostic]:
     """Return what is wrong with a lab in itself, each at its place in the document."""
     found = _names(document)
+    found += check_former_names(document, lab)
     found += _homes(document, lab)
     found += _markers(document, lab)
     found += _on_table(document, lab)

@@ -9,6 +9,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.address import Named, addresses, holds, read_addresses
 from pico.model.diff import Change
 from pico.model.operation import Operation
+from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 from pico.planning.parts.phrases import listed
 
@@ -46,7 +47,8 @@ def selection(
 
     Raises PicoError for what the lab does not have, and for what is asked for and excluded.
     """
-    named, without = read_addresses(setup, {*targets}), read_addresses(setup, {*exclude})
+    known = {word for word in exclude if word.partition(".")[0] in {*setup.lab.inventory, *renaming_of(setup.lab)}}
+    named, without = read_addresses(setup, {*targets}), read_addresses(setup, known)
     both = [name for name in addresses(named) if _covered(without, name)]
     if both:
         raise PicoError(
