@@ -11,13 +11,15 @@ from .garbage import wait_for_loading
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one command and return its exit code (design: `pico.diagnostics.ExitCode`)."""
+    if argv is None:
+        _speak_utf8()
     words = list(sys.argv[1:] if argv is None else argv)
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # matrices here are small: threads would only wait for another
     if argv is None:
         wait_for_loading()
     for name in ("stdout", "stderr"):
         if getattr(sys, name) is None:  # closed by who started it
-            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w"))
+            setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8"))
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")  # a terminal that can't show ✓ shows ? instead of failing
@@ -40,6 +42,15 @@ def main(argv: Sequence[str] | None = None) -> int:
             print(f"pico: standard output: {(exc.strerror or str(exc)).lower()}", file=sys.stderr)
             return 1
     return 0
+
+
+def _speak_utf8() -> None:
+    """Start over in Python's UTF-8 mode if the locale has ASCII alone: manifests, notes and the paths that git names
+    are UTF-8, and so is what was typed."""
+    if sys.getfilesystemencoding() != "ascii" or sys.flags.utf8_mode:
+        return
+    os.environ["PYTHONUTF8"] = "1"  # also for whatever this starts
+    os.execv(sys.executable, [sys.executable, "-X", "utf8", *sys.orig_argv[1:]])
 
 
 def _at_once(words: list[str]) -> str | None:

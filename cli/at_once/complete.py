@@ -80,7 +80,9 @@ def _revisions(folder: Path) -> Sequence[str]:
 
     command = ["git", "-C", str(folder), "for-each-ref", "--format=%(refname:short)", "refs/heads", "refs/tags"]
     try:
-        return subprocess.run(command, capture_output=True, text=True, check=False, timeout=1).stdout.split()
+        return subprocess.run(
+            command, capture_output=True, text=True, check=False, timeout=1, encoding="utf-8", errors="replace"
+        ).stdout.split()
     except (OSError, subprocess.SubprocessError):
         return ()
 
@@ -93,7 +95,7 @@ def _inventory(folder: Path) -> Iterator[str]:
         if not _readable(path):
             continue
         inside = False
-        for line in path.read_text(errors="replace").splitlines():
+        for line in path.read_text(errors="replace", encoding="utf-8").splitlines():
             if line[:1] not in (" ", "#", ""):
                 inside = line.startswith("inventory:")
             elif inside and (match := _NAME.fullmatch(line)):

@@ -34,7 +34,7 @@ def leave(session: Session, bench: Bench, log: Log, unattended: bool) -> None:
         process = subprocess.Popen(
             words, stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True
         )
-    log.path.with_suffix(".pid").write_text(str(process.pid))
+    log.path.with_suffix(".pid").write_text(str(process.pid), encoding="utf-8")
 
 
 def left(bench: Bench, word: str | None) -> Path | None:
@@ -72,7 +72,7 @@ def _goes_on(path: Path) -> bool:
     try:
         if Log.read(path).about.ended:
             return False
-        os.kill(int(path.with_suffix(".pid").read_text()), 0)
+        os.kill(int(path.with_suffix(".pid").read_text(encoding="utf-8")), 0)
     except (PicoError, OSError, ValueError):
         return False
     return True

@@ -66,7 +66,9 @@ def _configured(session: Session) -> str:
     """Return the user's own `core.pager`; what a repository sets does not count, for looking must not run it."""
     asked = ["git", "-C", str(session.folder), "config", "--show-scope", "-z", "--get-all", "core.pager"]
     try:
-        words = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.split("\0")
+        words = subprocess.run(
+            asked, capture_output=True, text=True, check=False, encoding="utf-8", errors="replace"
+        ).stdout.split("\0")
     except OSError:
         return ""
     pairs = zip(words[::2], words[1::2], strict=False)

@@ -28,7 +28,7 @@ def _installed(name: str) -> str | None:
 
 def _git() -> str | None:
     try:
-        done = subprocess.run(["git", "--version"], capture_output=True, text=True, check=False)
+        done = subprocess.run(["git", "--version"], capture_output=True, text=True, check=False, encoding="utf-8")
     except OSError:
         return None
     return done.stdout.removeprefix("git version ").strip() or None

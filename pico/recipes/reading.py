@@ -86,7 +86,8 @@ def _read(
     recipe = Recipe(
         **about, parameters=parameters, steps=steps, finally_=finally_, returns=returns, returned=returned,
         figures=read_figures(reader, returned, root.get("figures")), notes=read_notes(reader, root.get("notes")),
-        digest=f"sha256:{digest}", path=source.path, unattended=alone, told=tuple(dict.fromkeys(d for r in called for d in r.told)),
+        digest=f"sha256:{digest}", path=source.path, unattended=alone,
+        told=tuple(dict.fromkeys(d for r in called for d in r.told)),
     )  # fmt: skip
     return recipe, found
 

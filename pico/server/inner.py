@@ -64,7 +64,7 @@ def _listening(folder: Path) -> socket:
     if before.is_file():  # where a lab of that name has its desks
         before.replace(path)
     with suppress(OSError, ValueError, PicoError):
-        return listening("127.0.0.1", int(path.read_text()))
+        return listening("127.0.0.1", int(path.read_text(encoding="utf-8")))
     found = listening("127.0.0.1", 0)
     write_whole(path, str(found.getsockname()[1]).encode(), folders=True)
     return found

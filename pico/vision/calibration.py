@@ -94,7 +94,7 @@ def read_calibration(folder: Path) -> Calibration | None:
     if not path.exists():
         return None
     try:
-        return calibration_from_json(json.loads(path.read_text()))
+        return calibration_from_json(json.loads(path.read_text(encoding="utf-8")))
     except (ValueError, KeyError, TypeError) as exc:
         hint = "make it again with `pico calibrate`"
         raise PicoError(error("calibration-file", f"{path} is no calibration: {exc}", hint=hint)) from exc
@@ -121,7 +121,7 @@ def known_arms(folder: Path) -> dict[str, ArmOffsets]:
 def calibration_digest(folder: Path) -> str | None:
     """Return the digest of the calibration in the folder of a lab, or None; reads no more than the file."""
     try:
-        data = json.loads((folder / FILE).read_text())
+        data = json.loads((folder / FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return None
     return digest({key: value for key, value in data.items() if key != "made_at"}) if isinstance(data, dict) else None
@@ -130,7 +130,7 @@ def calibration_digest(folder: Path) -> str | None:
 def made_at(folder: Path) -> str:
     """Return when the calibration in the folder of a lab was made, empty for none; reads no more than the file."""
     try:
-        data = json.loads((folder / FILE).read_text())
+        data = json.loads((folder / FILE).read_text(encoding="utf-8"))
     except (OSError, ValueError):
         return ""
     return str(data.get("made_at", "")) if isinstance(data, dict) else ""

@@ -251,7 +251,7 @@ def _regular(mode: int) -> bool:
 
 def _shallow(common: Path) -> frozenset[str]:
     try:
-        return frozenset((common / "shallow").read_text().split())
+        return frozenset((common / "shallow").read_text(encoding="utf-8").split())
     except OSError:
         return frozenset()
 

@@ -292,7 +292,7 @@ def _hook(root: Path, name: str) -> Path | None:
     """Return the program of a hook, None where the repository has none."""
     asked = subprocess.run(
         ["git", "rev-parse", "--git-path", f"hooks/{name}"], cwd=root, env=_environment(root), capture_output=True,
-        text=True, check=False,
+        text=True, check=False, encoding="utf-8", errors="surrogateescape",
     )  # fmt: skip
     path = root / asked.stdout.strip()
     return path if asked.returncode == 0 and path.is_file() and os.access(path, os.X_OK) else None

@@ -49,7 +49,11 @@ def unsettled(
     at = commit or str(handle.head.target)
     begun = repository.own / "MERGE_HEAD"
     underway = commit is None and begun.is_file()
-    sides = [at, *begun.read_text().split()] if underway else [str(parent) for parent in handle[at].parent_ids]
+    sides = (
+        [at, *begun.read_text(encoding="utf-8").split()]
+        if underway
+        else [str(parent) for parent in handle[at].parent_ids]
+    )
     if len(sides) != 2 or (not underway and values(handle[at].message, STATE)):
         return []
     found = _moved_and_out(repository, root, sides)

@@ -108,7 +108,11 @@ class Repository:
         """The folder of Git's own files that all worktrees share: `.git` of the main one."""
         own = self.own
         shared = own / "commondir"
-        return (own / shared.read_text().strip()).resolve() if shared.is_file() else own
+        return (
+            (own / shared.read_text(encoding="utf-8", errors="surrogateescape").strip()).resolve()
+            if shared.is_file()
+            else own
+        )
 
     def complete(self, *, documents: bool = False) -> None:
         """Fetch the folders that a partial clone lacks, and with `documents` their manifests, notes and documents of

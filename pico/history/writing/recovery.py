@@ -194,7 +194,7 @@ def _alive(process: int) -> bool:
     """Whether a process runs; one that ended and whose parent has not asked yet does not (Linux tells)."""
     try:
         os.kill(process, 0)
-        said = Path(f"/proc/{process}/stat").read_text(errors="replace")
+        said = Path(f"/proc/{process}/stat").read_text(errors="replace", encoding="utf-8")
         return said.rpartition(")")[2].split()[0] != "Z"
     except ProcessLookupError:
         return False

@@ -65,14 +65,14 @@ def repository(folder: Path, lab: str) -> Path:
     """Return the bare repository of a lab, made where there is none; raises PicoError."""
     path = folder / "git" / f"{require_name(lab, 'a lab')}.git"
     hook = folder / "git" / ".hooks" / "update"
-    if not hook.exists() or hook.read_text() != _UPDATE:
+    if not hook.exists() or hook.read_text(encoding="utf-8") != _UPDATE:
         hook.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-        hook.write_text(_UPDATE)
+        hook.write_text(_UPDATE, encoding="utf-8")
         hook.chmod(0o700)
     if not path.exists():
         with tempfile.TemporaryDirectory(dir=path.parent, prefix=".new-") as new:
             git("init", "--quiet", "--bare", "--initial-branch=main", f"{new}/made")
-            with Path(new, "made", "config").open("a") as config:
+            with Path(new, "made", "config").open("a", encoding="utf-8") as config:
                 config.write(_SETTINGS)
             Path(new, "made").rename(path)
     return path
@@ -80,7 +80,15 @@ def repository(folder: Path, lab: str) -> Path:
 
 def git(*words: str) -> str:
     """Return what git prints; raises PicoError where it fails."""
-    done = subprocess.run(["git", *words], env=environment(), capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        ["git", *words],
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+        encoding="utf-8",
+        errors="replace",
+    )
     if done.returncode:
         raise PicoError(error("git", f"git {words[0]} failed: {done.stderr.strip()[:500]}"))
     return done.stdout.strip()
