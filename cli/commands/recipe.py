@@ -117,8 +117,9 @@ def from_(
     if out is None:
         session.show(written, text)
         return 0
-    if out.exists():
+    path = session.folder / out
+    if path.exists():
         raise PicoError(error("exists", f"{out} is there already", hint="name another file, or take it away first"))
-    write_whole(out, text.encode(), folders=True)
+    write_whole(path, text.encode(), folders=True)
     session.show(written, text, out)
     return 0

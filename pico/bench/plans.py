@@ -14,6 +14,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, erro
 from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
 from pico.manifest.file_names import EXCLUDED
+from pico.model.address import read_addresses
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
@@ -86,6 +87,7 @@ class Plans:
             _require_sense(check_expectations(manifests))
         left_out = {d.address for d in manifests.diagnostics if d.code == EXCLUDED}
         exclude = [word for word in exclude if word not in left_out]
+        read_addresses(self.opened.setup, exclude)
         if manifests is not given:
             require_settled(folder.repository, folder.root, manifests, commit, targets)
         target = Target(

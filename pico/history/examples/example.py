@@ -65,7 +65,7 @@ def nested(folder: Path) -> tuple[Diagnostic, ...]:
     """Return a warning where a new repository in `folder` would lie inside another one, which does not ignore it."""
     above = next((p for p in folder.absolute().parents if p.is_dir()), None)
     around = Repository.discover(above) if above else None
-    if around is None or around.ignores(folder):
+    if around is None or around.ignores(folder.resolve()):
         return ()
     text = f"{folder} is a repository of its own inside {around.root}, which would keep a link to it and not its files"
     hint = "to keep the lab in that one: `pico init DIR` without --example; or `rm -rf DIR/.git`, history and all"
