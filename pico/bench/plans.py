@@ -14,14 +14,13 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, erro
 from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
 from pico.manifest.file_names import EXCLUDED
-from pico.model.address import read_addresses
+from pico.model.address import called_now, read_addresses, renamed_state, renaming_of
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Spoiled, Target
 from pico.model.quantities import Value
-from pico.model.renaming import called_now, renamed_state, renaming_of
 from pico.model.request import PrimitiveRequest, asked
 from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion

@@ -11,12 +11,12 @@ from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.model.address import renamed_state, renaming_of
 from pico.model.comparing.drift import drift_of
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan, Target, plan_from_json
 from pico.model.primitive import primitive
-from pico.model.renaming import renamed_state, renaming_of
 from pico.model.state import LabState, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed

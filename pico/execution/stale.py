@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.address import Renaming, renamed_keys, renaming_between
 from pico.model.diff import Change, diff_observed, show_value, value_distance
 from pico.model.lab import Lab
 from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import angle_between
 from pico.model.record import as_json
-from pico.model.renaming import Renaming, renamed_keys, renaming_between
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of, state_from_json
 

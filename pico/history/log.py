@@ -17,8 +17,8 @@ from pico.history.lab.scope import Scope, unknown_parts
 from pico.history.repository.ranges import for_rev_list
 from pico.history.runs.committed import runs_added
 from pico.history.runs.proof import Standings
+from pico.model.address import former_names, renaming_of
 from pico.model.diff import Change
-from pico.model.renaming import former_names, renaming_of
 
 _BATCHES = (1, 8, 64)
 """How many commits are read at once: first one, so that it can be shown."""

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from pico.manifest.text.kinds import NAME
 from pico.manifest.text.tree import Document, Map, Scalar
+from pico.model.address import Renaming, renaming_of
 from pico.model.catalog import Catalog, ComponentType
-from pico.model.renaming import Renaming, renaming_of
 from pico.model.setup import Setup
 
 

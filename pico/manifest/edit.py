@@ -7,18 +7,15 @@ from collections.abc import Iterable, Mapping
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.manifest.changes import Change, Changes, differences
+from pico.manifest.changes import Change, Changes
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
 from pico.manifest.text.places import find
 from pico.manifest.text.source import Source
 from pico.manifest.text.splice import Editor, apply_splices
 from pico.manifest.text.tree import Document, Map, Node, Scalar, parse, plain
-from pico.model.address import Named
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
-from pico.model.setup import Setup
-from pico.model.state import LabState
 
 _UNITS = {"x": "mm", "y": "mm", "yaw": "deg"}
 _ORDER = {"slot": 0, "pose": 1}
@@ -52,21 +49,10 @@ def set_values(text: str, changes: Changes) -> str:
     return mark + result
 
 
-def capture(
-    files: Mapping[str, bytes], setup: Setup, wanted: LabState, live: LabState, named: Named | None = None
-) -> dict[str, bytes]:
-    """Return the manifests that must change for the files' state (`wanted`) to say what `live` is.
-
-    Only values that differ beyond tolerance change, and of these only those `named`. A component that no file names is
-    put into the file that holds most. Raises PicoError for files that hold no LabState, or one that can't be written
-    to.
-    """
-    return spliced(files, differences(setup, wanted, live, named))
-
-
 def spliced(files: Mapping[str, bytes], changes: Changes) -> dict[str, bytes]:
     """Return the manifests that must change for `changes` to be made in them, each in the file that names its
-    component, else in the one that names most. Raises PicoError as `capture` does."""
+    component, else in the one that names most. Raises PicoError for files that hold no LabState, or one that can't be
+    written to."""
     if not changes:
         return {}
     texts = {path: data.decode("utf-8") for path, data in sorted(files.items()) if _is_state(path, data)}

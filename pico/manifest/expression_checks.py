@@ -12,7 +12,7 @@ from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
 from pico.manifest.text.tree import Document, List, Scalar
 from pico.manifest.text.within import inside
-from pico.model.renaming import Renaming, renamed_expression, renaming_of
+from pico.model.address import Renaming, renamed_expression, renaming_of
 from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, cameras_of, functions_of, names_of
 

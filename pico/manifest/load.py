@@ -22,9 +22,9 @@ from pico.manifest.text.places import find, where, where_key
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Scalar, parse
 from pico.manifest.weighing import weighed
+from pico.model.address import former_names
 from pico.model.catalog import ComponentType
 from pico.model.lab import Lab
-from pico.model.renaming import former_names
 from pico.model.setup import Setup
 from pico.model.state import LabState
 

@@ -14,9 +14,9 @@ from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
 from pico.manifest.values import read_number, read_value
 from pico.manifest.wording import shown
+from pico.model.address import renamed_expression
 from pico.model.pose import Pose, wrap
 from pico.model.quantities import Value
-from pico.model.renaming import renamed_expression
 from pico.model.state import ComponentState, Expectation, LabState, LightReference
 
 MOST_COMPONENTS = 200

@@ -9,6 +9,7 @@ from typing import Any
 
 from pico.diagnostics import PicoError, did_you_mean, error, slot_meant
 from pico.kernels.pipeline import spelt
+from pico.model.address import renaming_of
 from pico.model.catalog import Tunable
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
@@ -16,7 +17,6 @@ from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
 from pico.model.quantities import QuantityError, Value, convert
 from pico.model.record import as_json, record
-from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 

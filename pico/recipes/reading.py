@@ -7,12 +7,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.manifest.recipe_names import by_present_names
 from pico.manifest.text.kinds import API
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import Document, Map, Node, Scalar, parse
-from pico.model.renaming import renaming_of
+from pico.model.address import renaming_of
 from pico.model.setup import Setup
-from pico.recipes.former_names import by_present_names
 from pico.recipes.parameters import read_parameters
 from pico.recipes.reader import Able, Reader
 from pico.recipes.reading_figures import read_figures, read_notes

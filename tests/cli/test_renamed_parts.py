@@ -198,7 +198,7 @@ def test_a_merge_of_an_edit_under_the_old_name_is_not_lost(lab: Path, pico: Pico
 
 
 def test_the_present_names_of_a_chain_and_of_expressions() -> None:
-    from pico.model.renaming import renamed_expression
+    from pico.model.address import renamed_expression
 
     names = {"p2": "pol_out", "cam": "camera"}
     text = "p2.pose.x > 3 && cam.peak > p22.x && lx.p2.y && 'p2.x' == \"cam.peak\""

@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.manifest.edit import capture, set_values
+from pico.manifest.capture import capture
+from pico.manifest.edit import set_values
 from pico.manifest.fmt import format_text
 from pico.manifest.load import load_files, load_folder
 from pico.model.diff import diff_states

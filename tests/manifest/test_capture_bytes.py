@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from examples import examples
-from pico.manifest.edit import capture
+from pico.manifest.capture import capture
 from pico.manifest.load import load_files
 from pico.model.address import read_addresses
 from pico.model.pose import Pose

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from examples import examples
 from pico.backends.sim.world import new_world, observe
-from pico.manifest.edit import capture
+from pico.manifest.capture import capture
 from pico.manifest.load import load_files
 from pico.model.observation import Observation, ObservedValue, live_state, slot_at
 from pico.model.plan import Plan

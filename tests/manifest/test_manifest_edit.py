@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from manifest_samples import GOOD, STATE
 
 from pico.diagnostics import PicoError
-from pico.manifest.edit import capture, set_values
+from pico.manifest.capture import capture
+from pico.manifest.edit import set_values
 from pico.manifest.load import load_files
 from pico.manifest.text.source import Source
 from pico.manifest.text.tree import parse, plain

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pico.backends.sim.world import World, WorldBody, footprints, initial_values, new_body, parked, shapes_of
 from pico.diagnostics import Diagnostic, warning
 from pico.geometry.shape import placed, separation
+from pico.model.address import called_now, renamed_keys, renaming_of
 from pico.model.observation import UnknownObject
 from pico.model.pose import Pose
-from pico.model.renaming import called_now, renamed_keys, renaming_of
 from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 

@@ -20,11 +20,11 @@ from pico.history.lab.notes import Note, note_path, notes
 from pico.history.repository.repository import Repository
 from pico.manifest.file_names import MAX_BYTES
 from pico.manifest.files import read_folder
+from pico.model.address import Renaming
 from pico.model.catalog import Tunable
 from pico.model.diff import describe_move, describe_value
 from pico.model.pose import Pose
 from pico.model.record import record
-from pico.model.renaming import Renaming
 
 
 @record

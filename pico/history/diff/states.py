@@ -12,9 +12,9 @@ from pico.history.lab.folder import LabFolder, between
 from pico.history.lab.scope import Scope
 from pico.history.repository.ranges import ends_of
 from pico.manifest.files import read_folder, states_alone
+from pico.model.address import renaming_of
 from pico.model.diff import Change
 from pico.model.record import record
-from pico.model.renaming import renaming_of
 
 
 @record

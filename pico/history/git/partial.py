@@ -223,28 +223,26 @@ def _attach(handle: Any, remote: str) -> None:
 
     objects = Objects(handle, remote)
 
-    class Promised(pygit2.OdbBackend):
-        def read_cb(self, name: Any) -> tuple[int, bytes]:
-            return objects.read(name)
+    def header(backend: Any, name: Any) -> tuple[int, int]:
+        kind, data = objects.read(name)
+        return kind, len(data)
 
-        def read_header_cb(self, name: Any) -> tuple[int, int]:
-            kind, data = objects.read(name)
-            return kind, len(data)
-
-        def read_prefix_cb(self, name: str) -> tuple[int, bytes, Any]:
-            if len(name) < 40:  # all commits are here, and nothing else is asked for by the beginning of its id
-                raise KeyError(name)
-            return *objects.read(name), pygit2.Oid(hex=name)
-
-        def exists_cb(self, name: Any) -> bool:
-            return False
-
-        def exists_prefix_cb(self, name: str) -> Any:
+    def whole(backend: Any, name: str) -> tuple[int, bytes, Any]:
+        if len(name) < 40:  # all commits are here, and nothing else is asked for by the beginning of its id
             raise KeyError(name)
+        return *objects.read(name), pygit2.Oid(hex=name)
 
-        def refresh_cb(self) -> None:
-            """What is fetched is read at once."""
+    def unknown(backend: Any, name: str) -> Any:
+        raise KeyError(name)
 
-    promised = Promised()
+    answers = {
+        "read_cb": lambda backend, name: objects.read(name),
+        "read_header_cb": header,
+        "read_prefix_cb": whole,
+        "exists_cb": lambda backend, name: False,  # who asks whether an object is here does not want it fetched
+        "exists_prefix_cb": unknown,
+        "refresh_cb": lambda backend: None,  # what is fetched is read at once
+    }
+    promised = type("Promised", (pygit2.OdbBackend,), answers)()
     handle.odb.add_backend(promised, 1)
     handle.promised = promised  # libgit2 holds no reference to it

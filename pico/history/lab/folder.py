@@ -23,10 +23,9 @@ from pico.history.writing.recovery import anything_left
 from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS, RENAMED
 from pico.manifest.files import bench_files, read_folder, shown_path, states_alone
 from pico.manifest.load import Manifests, find_lab, load_files
-from pico.model.address import Named
+from pico.model.address import Named, former_names, renamed_keys, renamed_state, renaming_between, renaming_of
 from pico.model.diff import Change, diff_states
 from pico.model.record import record
-from pico.model.renaming import former_names, renamed_keys, renamed_state, renaming_between, renaming_of
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 from pico.places.lab import own_folder
@@ -336,14 +335,9 @@ class LabFolder:
         return self._written(lambda: self._with(asked_for(self.setup, self.state, goal, named)), write)
 
     def _with(self, changes: Changes) -> dict[str, bytes]:
-        """Return the manifests that must change for `changes` to be made in them, components by their present names if
-        the working tree's Lab has those."""
-        from pico.manifest.edit import spliced
-        from pico.manifest.present_names import as_files_name, with_present_names
+        from pico.manifest.capture import with_changes
 
-        names, known = renaming_of(self.setup.lab), self.described.lab.inventory
-        made = spliced(self._files, as_files_name(self._files, changes, names, known))
-        return {**made, **with_present_names({**self._files, **made}, names, known)} if made else {}
+        return with_changes(self._files, self.setup, changes, self.described.lab.inventory)
 
     def _written(self, splicing: Callable[[], dict[str, bytes]], write: bool) -> Captured:
         """Write what `splicing` makes of the files as they are by then; without `write`, say what it would."""
@@ -363,9 +357,10 @@ class LabFolder:
         return captured, manifests.require()[1]
 
     def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
-        from pico.manifest.changes import differences
+        from pico.manifest.capture import capture
 
-        return self._with(differences(self.setup, self.state, live, named))
+        known = self.described.lab.inventory
+        return capture(self._files, self.setup, self.state, live, named, known)
 
     def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
         from pico.model.trace.report import Captured

@@ -8,8 +8,8 @@ from pathlib import Path, PurePosixPath
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.manifest.file_names import MAX_BYTES
+from pico.model.address import renaming_of
 from pico.model.record import record
-from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 
 FOLDER = "notes"

@@ -9,9 +9,8 @@ from pathlib import Path, PurePosixPath
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.git import command as git
 from pico.history.lab.folder import LabFolder
-from pico.model.address import read_addresses
+from pico.model.address import called_now, former_names, read_addresses, renaming_of
 from pico.model.diff import Change
-from pico.model.renaming import called_now, former_names, renaming_of
 
 
 @dataclass(frozen=True, slots=True)

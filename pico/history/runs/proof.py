@@ -17,7 +17,7 @@ from pico.history.git.commit import Commit
 from pico.history.lab.folder import LabFolder
 from pico.history.messages import trailers
 from pico.history.runs.committed import CACHE, RunPlace, files_at, places_in_history, read_carried, runs_added
-from pico.model.renaming import renamed_state, renaming_of
+from pico.model.address import renamed_state, renaming_of
 from pico.model.trace.expectation import Standing, Verdict
 from pico.model.trace.run import STRENGTH, Run
 from pico.runs.files import intact

@@ -6,10 +6,9 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.model.address import Named, addresses, holds, read_addresses
+from pico.model.address import Named, addresses, holds, read_addresses, renaming_of
 from pico.model.diff import Change
 from pico.model.operation import Operation
-from pico.model.renaming import renaming_of
 from pico.model.setup import Setup
 from pico.planning.parts.phrases import listed
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pico.diagnostics import Diagnostic, SourceRange, warning
 from pico.manifest.file_names import RENAMED
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar
-from pico.model.renaming import Renaming, called_now, renamed_expression
+from pico.model.address import Renaming, called_now, renamed_expression
 
 _PROSE = ("apiVersion", "kind", "metadata", "figures", "notes", "parameters")
 """Keys of a recipe below which no part is named."""
