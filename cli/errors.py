@@ -13,11 +13,10 @@ import typer
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 
-from .names import instead
+from .names import instead, moves
 
-ALIKE = 0.8
-"""How much alike a command must be to be offered, besides the first letter: `resume` and `move` move the arm, and are
-nothing for who typed `restore` or `remove`."""
+ALIKE = 0.75
+"""How much alike a command must be to be offered for a misspelt one, besides the first letter."""
 
 
 def explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], int]:
@@ -84,9 +83,8 @@ def _usage(exc: Any, words: list[str]) -> Diagnostic:
             return error("usage", said)
         message = f"{path} has no command `{unknown}`"
         names = context.command.list_commands(context) if context else ()
-        twisted = [name for name in names if sorted(name) == sorted(unknown)]
-        begun = [name for name in names if name[0] == unknown[:1]]
-        near = did_you_mean(unknown, twisted, 0.0) if twisted else did_you_mean(unknown, begun, ALIKE)
+        begun = [name for name in names if name[0] == unknown[:1] and not moves(f"{path} {name}")]
+        near = did_you_mean(unknown, begun, ALIKE)
         lists = f"`{path} --help` lists the commands"
         if "show" in names and re.fullmatch(r"[\w.-]+", unknown):
             lists = f"`{path} show {unknown}` where that is a name; {lists}"

@@ -32,6 +32,19 @@ SELDOM = {
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""
 
+MOVING = {
+    "apply", "bisect", "bisect continue", "bisect good", "bisect bad", "bisect run", "bisect skip", "bisect start",
+    "bisect step", "calibrate", "checkout", "commission", "do", "laser", "laser arm", "move", "optimize", "recover",
+    "resume", "run", "runs replay", "set", "teleop", "undo",
+}  # fmt: skip
+"""Commands that move something or let light out: never offered for a word that is misspelt, for who takes the offer
+without reading moves the bench. What is meant is read in the list of commands."""
+
+
+def moves(command: str) -> bool:
+    """Return whether a command (`pico runs replay`) moves something or lets light out."""
+    return command.removeprefix("pico ") in MOVING
+
 
 def instead(name: str) -> str:
     """Return what is said to who types such a name, in one line; empty for any other."""

@@ -108,25 +108,49 @@ class PicoError(Exception):
 _AS_NEAR = 0.01
 _SLOTS_ALIKE = 0.91
 """How alike a misspelt slot must be: `storage/z9` is none of its neighbours."""
+_BEGUN = 3
+"""So many letters of a name, typed alone, are its beginning, and no misspelling."""
 
 
 def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
     """Return a hint for a misspelt `word`: the nearest known one, at least so much `alike` (0 to 1), or the known ones
     where they are few."""
-    import difflib
-
     names = sorted(known)
-    near = difflib.get_close_matches(word, names, n=3, cutoff=alike)
-    likeness = [difflib.SequenceMatcher(None, name, word).ratio() for name in near]
-    if nearest := [f"`{name}`" for name, like in zip(near, likeness, strict=True) if like > likeness[0] - _AS_NEAR]:
+    likeness = {name: _likeness(word, name) for name in names}
+    best = max(likeness.values(), default=0.0)
+    if best >= alike:
+        nearest = [f"`{name}`" for name, like in likeness.items() if like > best - _AS_NEAR][:3]
         return f"did you mean {' or '.join(nearest)}?"
     if names and len(names) <= 12:
         return "known: " + ", ".join(f"`{n}`" for n in names)
     return ""
 
 
+def _likeness(word: str, name: str) -> float:
+    """Return how alike two words are, 0 to 1: by the letters to be changed, added, left out or swapped with the next
+    one (Damerau's distance in its restricted form); the beginning of a name is nearly the name."""
+    if len(word) >= _BEGUN and name.startswith(word):
+        return max(0.9, len(word) / len(name))
+    return 1.0 - _changes(word, name) / max(len(word), len(name), 1)
+
+
+def _changes(a: str, b: str) -> int:
+    """Return the fewest letters to be changed, added, left out or swapped with the next one between two words."""
+    before: list[int] = []
+    last = list(range(len(b) + 1))
+    for i, x in enumerate(a, 1):
+        row = [i]
+        for j, y in enumerate(b, 1):
+            least = min(last[j] + 1, row[j - 1] + 1, last[j - 1] + (x != y))
+            if i > 1 and j > 1 and x == b[j - 2] and a[i - 2] == y:
+                least = min(least, before[j - 2] + 1)
+            row.append(least)
+        before, last = last, row
+    return last[-1]
+
+
 def slot_meant(word: str, slots: Iterable[str]) -> str:
-    """Return a hint for a slot that there is not, like `did_you_mean`; `a4` may be `storage/a4`."""
+    """Return a hint for a slot that there is not, like `did_you_mean`; `a4` and `storge/a4` may be `storage/a4`."""
     known = sorted(slots)
-    short = [f"`{slot}`" for slot in known if slot.rpartition("/")[2] == word]
+    short = [f"`{slot}`" for slot in known if slot.rpartition("/")[2] == word.rpartition("/")[2]]
     return f"did you mean {' or '.join(short)}?" if short else did_you_mean(word, known, _SLOTS_ALIKE)

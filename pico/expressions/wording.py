@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Mapping, Sequence
 
+from pico.diagnostics import did_you_mean
 from pico.expressions.rewriting import WRITTEN
 
 _PATH = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*")
@@ -101,10 +102,8 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
 
 
 def _near(name: str, known: Collection[str]) -> str:
-    import difflib
-
-    near = difflib.get_close_matches(name, known, n=1, cutoff=0.6)
-    return f"; did you mean `{near[0]}`?" if near else ""
+    near = did_you_mean(name, known)
+    return f"; {near}" if near.startswith("did") else ""
 
 
 def _meant(name: str, known: Collection[str]) -> str:

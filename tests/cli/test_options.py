@@ -145,7 +145,7 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
     ("words", "said"),
     [
         (["nosuch"], "no command `nosuch`"),
-        (["aply"], "did you mean `apply`?"),
+        (["plann"], "did you mean `plan`?"),
         (["plan", "--bogus"], "no such option: --bogus"),
         (["checkout"], "missing argument"),
         (["commit", "--meta", "x"], "key=value"),
@@ -297,8 +297,9 @@ def test_an_unknown_command_of_a_group_is_looked_for_in_the_group(pico: Pico) ->
 
 
 @pytest.mark.parametrize(("typed", "meant"), [
-    ("aply", "apply"), ("stauts", "status"), ("plna", "plan"), ("undoo", "undo"), ("mvoe", "move"), ("resum", "resume"),
-    ("restore", ""), ("remove", "remote"), ("reset", ""), ("sync", ""),
+    ("stauts", "status"), ("plna", "plan"), ("mesure", "measure"), ("measrue", "measure"), ("validat", "validate"),
+    ("remove", "remote"), ("drfit", "drift"), ("restore", ""), ("reset", ""), ("sync", ""),
+    ("aply", ""), ("undoo", ""), ("mvoe", ""), ("resum", ""), ("optimise", ""), ("rn", ""), ("seet", ""),
 ])  # fmt: skip
 def test_a_command_is_offered_for_a_slip_of_the_fingers_and_not_for_another_word(
     typed: str, meant: str, pico: Pico, shel: Path
@@ -306,3 +307,20 @@ def test_a_command_is_offered_for_a_slip_of_the_fingers_and_not_for_another_word
     answer = pico(typed)
     assert answer.code == 1
     assert (f"did you mean `{meant}`?" in answer.err) if meant else ("did you mean" not in answer.err)
+
+
+def test_a_command_that_asks_before_it_moves_something_is_offered_for_no_slip() -> None:
+    """What takes --yes moves the bench, but for what is named here: it only reads, or writes books and files."""
+    from pico_cli.at_once.declared import declared
+    from pico_cli.commands import files
+    from pico_cli.names import moves
+
+    harmless = {"bench update", "data", "data gc", "drift", "lease steal", "measure", "morning", "swap", "verify"}
+    asks = {
+        f"{name} {below}".strip()
+        for name, path in files().items()
+        for below, (options, _) in declared(path).items()
+        if "--yes" in options
+    }
+    assert {name for name in asks if not moves(name)} <= harmless
+    assert moves("pico resume") and not moves("pico measure")
