@@ -99,11 +99,31 @@ def test_the_check_of_the_github_workflow_runs(pull_request: Path, broken: bool,
 
 
 def test_the_script_of_the_gitlab_job_runs(pull_request: Path) -> None:
-    (line,) = GITLAB["lab"]["script"]
-    assert shell(line, pull_request, CI_MERGE_REQUEST_TARGET_BRANCH_NAME="main") == 0
+    with_one_recipe(pull_request)
+    for line in GITLAB["lab"]["script"]:
+        assert shell(line, pull_request, CI_MERGE_REQUEST_TARGET_BRANCH_NAME="main") == 0
     kept = [pull_request / path for path in GITLAB["lab"]["artifacts"]["paths"]]
     assert all(path.is_dir() for path in kept)
-    assert (pull_request / GITLAB["lab"]["artifacts"]["reports"]["junit"]).is_file()
+    assert all((pull_request / path).is_file() for path in GITLAB["lab"]["artifacts"]["reports"]["junit"])
+
+
+def test_the_workflow_runs_the_recipes_without_an_identity(pull_request: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Also where nothing was checked before: it fails by its own recipe alone."""
+    for who in ("AUTHOR", "COMMITTER"):
+        monkeypatch.delenv(f"GIT_{who}_NAME")
+        monkeypatch.delenv(f"GIT_{who}_EMAIL")
+    with_one_recipe(pull_request)
+    (line,) = [step["run"] for step in STEPS if step.get("run", "").startswith("pico test")]
+    assert shell(line, pull_request) == 0
+    assert (pull_request.parent / "temp" / "report" / "recipes.xml").is_file()
+
+
+def with_one_recipe(lab: Path) -> None:
+    """Leave a lab one recipe, that takes no time, takes a branch that only `origin` has, and writes a note."""
+    shutil.rmtree(lab / "recipes")
+    (lab / "recipes").mkdir()
+    steps = "steps:\n- apply: e1\n- note: {p1: was here}\n"
+    (lab / "recipes" / "one.yaml").write_text(f"apiVersion: pico/v1\nkind: Recipe\nmetadata: {{name: one}}\n{steps}")
 
 
 def test_the_comment_is_written_over_the_one_before(pull_request: Path) -> None:

@@ -56,20 +56,25 @@ def check(
 ) -> int:
     """Check a change as a pull request: valid, buildable, as expected.
 
-    Asks the manifests as they are now, in a simulated bench of its own: the bench, its journal and its lock are not
-    touched. Above labs, each that differs from BASE is checked. Exits with 1 where manifests are not valid, 3 where
-    the state is physically impossible, 6 where an expectation fails, 7 where policy denies it; the first that applies.
+    Reads the manifests and recipes as they are now, and tries the manifests in a simulated bench of its own: the bench,
+    its journal and its lock are not touched. Above labs, each that differs from BASE is checked. Exits with 1 if
+    manifests or recipes are not valid, 3 if the state is physically impossible, 6 if an expectation fails, 7 if policy
+    denies it; the first that applies. `pico test` runs the recipes.
 
     Examples:
       pico check main
       pico check --report report.md --junit checks.xml
     """
     from pico.bench.checking import check
+    from pico.recipes.checking import check_recipes
 
     session = Session.of(context)
     folder = _folder(session, report, pictures)
     with waiting("Checking"):
-        found = check(session.folder, base, merging=merge, fidelity=fidelity or "kinematic", pictures=folder)
+        found = check(
+            session.folder, base, merging=merge, fidelity=fidelity or "kinematic", pictures=folder,
+            recipes=check_recipes,
+        )  # fmt: skip
     _write_files(session, found, report, junit)
     if markdown and not session.json:
         from ..views.check_markdown import report as in_markdown

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.manifest.text.source import Source
+from pico.recipes.checking import FOLDER
 from pico.recipes.doing import Doing
 from pico.recipes.log import About, Log, logs
 from pico.recipes.parameters import given_values
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.recipes.ahead import Foreseen
 
-FOLDER = "recipes"
-"""Where the recipes of a lab are, below its folder."""
 MOST_LISTED = 20
 """Runs of recipes that are looked through for those that can go on."""
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import shutil
 import tempfile
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -26,11 +26,13 @@ ASIDE = (".git", ".pico", "runs")
 
 @dataclass(frozen=True)
 class Rehearsed:
-    """How a recipe went in the simulator: `done`, `failed` or `interrupted`, at which step; wall time [s]."""
+    """How a recipe went in the simulator: `done`, `failed` or `interrupted`, at which step; `skipped` and why, for one
+    that was only checked; wall time [s]."""
 
     name: str
     outcome: str
     at: str = ""
+    why: str = ""
     seconds: float = 0.0
     returns: Mapping[str, Any] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
@@ -38,12 +40,17 @@ class Rehearsed:
     @classmethod
     def of(cls, name: str, out: Outcome, seconds: float) -> Self:
         """Return how a run of a recipe went."""
-        return cls(name, out.outcome, out.at, seconds, dict(out.returns), out.diagnostics)
+        return cls(name, out.outcome, out.at, "", seconds, dict(out.returns), out.diagnostics)
 
     @property
     def passed(self) -> bool:
-        """Whether it came to its end."""
-        return self.outcome == "done"
+        """Whether it came to its end, or is right as far as it can be checked."""
+        return self.outcome in ("done", "skipped")
+
+    @property
+    def skipped(self) -> bool:
+        """Whether it was checked and not run."""
+        return self.outcome == "skipped"
 
 
 def rehearse_all(
@@ -70,7 +77,8 @@ def _ended(one: Any, name: str) -> Rehearsed:
 
 
 def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
-    """Try one recipe of the lab in `root`, in a clone that is gone afterwards."""
+    """Try one recipe of the lab in `root`, in a clone that is gone afterwards. One whose parameters have no values by
+    default is a function of other recipes: it is read and checked, and not run."""
     from pico.bench.bench import Bench
     from pico.recipes.recipes import Recipes
 
@@ -81,15 +89,23 @@ def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
             with Bench.open(lab, fidelity=fidelity, bench=SIMULATOR) as bench:
                 recipes = Recipes(bench)
                 recipe = recipes.read(name)
+                if wants := [p.name for p in recipe.parameters.values() if p.default is None]:
+                    return Rehearsed(name, "skipped", why=_function(wants), seconds=time.monotonic() - began)
                 out = recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
         except PicoError as exc:
-            return Rehearsed(name, "failed", "", time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
+            return Rehearsed(name, "failed", seconds=time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
         return Rehearsed.of(name, out, time.monotonic() - began)
 
 
+def _function(wants: Sequence[str]) -> str:
+    """Return why a recipe with such parameters is not run."""
+    names = " and ".join([", ".join(wants[:-1]), wants[-1]] if len(wants) > 1 else wants)
+    return f"a function: {names} {'has' if len(wants) == 1 else 'have'} no default"
+
+
 def clone(root: Path, to: Path) -> Path:
-    """Make a repository with all branches and tags of the one that a lab is in, and the lab's files as they are now;
-    return the lab's folder in it. Raises PicoError."""
+    """Make a repository with all branches and tags of the one that a lab is in, those of its remotes included, an
+    identity to commit as, and the lab's files as they are now; return the lab's folder in it. Raises PicoError."""
     repository = Repository.discover(root)
     if repository is None:
         shutil.copytree(root, to, ignore=lambda _, found: set(found) & set(ASIDE))
@@ -97,7 +113,9 @@ def clone(root: Path, to: Path) -> Path:
     source, doing = str(repository.root), "make a clone to try recipes in"
     to.mkdir(parents=True)
     git(to, ["init", "-q"], doing=doing, extra=_OWN)
-    refs = ["+refs/heads/*:refs/heads/*", "+refs/tags/*:refs/tags/*"]
+    for key, value in _IDENTITY.items():
+        git(to, ["config", key, value], doing=doing, extra=_OWN)
+    refs = [f"+refs/{kind}/*:refs/{kind}/*" for kind in ("heads", "tags", "remotes")]
     git(to, ["fetch", "-q", "--no-auto-gc", "--update-head-ok", source, *refs], doing=doing, extra=_OWN)
     head = repository.head()
     if head.commit:
@@ -108,7 +126,6 @@ def clone(root: Path, to: Path) -> Path:
     return lab
 
 
-_OWN = {
-    "GIT_CONFIG_GLOBAL": "/dev/null", "GIT_AUTHOR_NAME": "PICO", "GIT_AUTHOR_EMAIL": "pico@localhost",
-    "GIT_COMMITTER_NAME": "PICO", "GIT_COMMITTER_EMAIL": "pico@localhost", "GIT_ALLOW_PROTOCOL": "file",
-}  # fmt: skip
+_OWN = {"GIT_CONFIG_GLOBAL": "/dev/null", "GIT_ALLOW_PROTOCOL": "file"}
+_IDENTITY = {"user.name": "PICO", "user.email": "pico@localhost"}
+"""As whom recipes commit there: a runner of continuous integration has no identity of its own."""

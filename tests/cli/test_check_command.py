@@ -42,7 +42,7 @@ def test_verdicts_and_what_changes_are_shown(shel: Path, pico: Pico) -> None:
     answer = pico("check")
     assert answer.code == 0 and answer.err == ""
     assert answer.out.startswith("shel · C3 with edits against main (") and "p2  turned +30°" in answer.out
-    assert answer.out.count("✓") == 6 and answer.out.rstrip().endswith("Passed: all is well.")
+    assert answer.out.count("✓") == 7 and answer.out.rstrip().endswith("Passed: all is well.")
     assert not (shel / ".pico").exists()
 
 
@@ -60,7 +60,7 @@ def test_as_json_it_is_one_document(shel: Path, pico: Pico) -> None:
     (lab,) = answer.data["labs"]
     assert answer.data["exit_code"] == lab["exit_code"] == 1
     assert lab["checks"][0]["diagnostics"][0]["source"]["path"] == STATE
-    assert [c["verdict"] for c in lab["checks"]][2:] == ["skipped"] * 4
+    assert [c["verdict"] for c in lab["checks"]][2:] == ["skipped"] * 5
 
 
 def test_the_report_is_written_with_its_pictures_and_printed_without(shel: Path, pico: Pico) -> None:
@@ -192,7 +192,7 @@ def test_junit_has_a_case_for_each_question_and_each_expectation(shel: Path, pic
     top = xml.parse(shel / "junit.xml").getroot()
     assert list(breaches(top)) == []
     suite = top[0]
-    assert [suite.get(key) for key in ("name", "tests", "failures", "skipped")] == ["shel", "8", "2", "0"]
+    assert [suite.get(key) for key in ("name", "tests", "failures", "skipped")] == ["shel", "9", "2", "0"]
     (case,) = suite.findall("testcase[@name='expect: p2.pose.x < 0.0']")
     assert "]]> & \ufffd <x>" in str(case[0].get("message")) and "p2.pose.x is 520" in str(case[0].text)
 
@@ -202,7 +202,7 @@ def test_junit_of_what_is_not_valid_names_the_place_and_skips_the_rest(shel: Pat
     assert pico("check", "--junit", "junit.xml").code == 1
     top = xml.parse(shel / "junit.xml").getroot()
     assert list(breaches(top)) == []
-    assert (top[0][0].get("file"), top[0][0].get("line")) == (STATE, "10") and top[0].get("skipped") == "4"
+    assert (top[0][0].get("file"), top[0][0].get("line")) == (STATE, "10") and top[0].get("skipped") == "5"
 
 
 ANY = st.text(st.characters() | st.sampled_from("|`*_[]()<>@#!~&\n\x00\ud800"), max_size=60)

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from pico.bench.checking.candidate import Candidate, Origin, in_folder, in_memory, origin
-from pico.bench.checking.steps import check_lab
+from pico.bench.checking.questions import CheckRecipes
+from pico.bench.checking.steps import check_lab, with_recipes
 from pico.bench.checking.verdict import CheckReport, LabChecked
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.history.repository.comparison_base import ComparisonBase, comparison_base
@@ -24,12 +26,14 @@ def check(
     fidelity: str = "kinematic",
     pictures: Path | None = None,
     environment: Mapping[str, str] | None = None,
+    recipes: CheckRecipes | None = None,
 ) -> CheckReport:
     """Check the lab that `path` lies in, or every lab below it that differs from the base, and return what was found.
 
     `revision`: what to compare with, see `comparison_base`. `merging`: check what HEAD would be once this
     revision is merged into it, instead of the files as they are, against that revision where no other is named.
-    `pictures`: the folder for pictures of what changes. Raises PicoError where there is no lab or no such revision,
+    `pictures`: the folder for pictures of what changes. `recipes`: what reads the recipes of a lab; without it they are
+    not asked about. Raises PicoError where there is no lab or no such revision,
     and for a merge with conflicts.
     """
     if fidelity not in ("kinematic", "physics"):
@@ -48,8 +52,18 @@ def check(
             alike.append(_shown(repository, root))
             continue
         found = check_lab(candidate, before, what=what, fidelity=fidelity, folder=_shown(repository, root))
+        if recipes is not None:
+            found = with_recipes(found, candidate, recipes, partial(_known, repository))
         labs.append(_drawn(candidate, before, found, pictures, labs))
     return CheckReport(what=what, base=base, labs=tuple(labs), alike=tuple(alike))
+
+
+def _known(repository: Repository | None, revision: str) -> bool:
+    """Return whether there is a revision of this name."""
+    try:
+        return repository is not None and bool(repository.resolve(revision))
+    except PicoError:
+        return False
 
 
 def _roots(path: Path) -> tuple[list[Path], bool]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,7 @@ from pico.bench.checking.candidate import Candidate
 from pico.bench.checking.verdict import Check, Verdict
 from pico.diagnostics import Diagnostic, PicoError, SourceRange, error, warning
 from pico.history.merge.checked import overlapping
+from pico.manifest.files import shown_path
 from pico.manifest.text.places import find, where
 from pico.model.diff import Change
 from pico.model.observation import Observation
@@ -18,6 +19,12 @@ from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.model.trace.expectation import Expected
+
+CheckRecipes = Callable[
+    [Setup, str, Mapping[str, bytes], Callable[[str], bool]], tuple[tuple[str, ...], tuple[Diagnostic, ...]]
+]
+"""Reads the recipes of a lab: of its bench, its folder, its files by path, and whether there is a revision of a name
+returns the names of the recipes and what is wrong with them."""
 
 
 @dataclass(frozen=True)
@@ -108,6 +115,16 @@ def policy(case: Case, plan: Plan) -> tuple[Check, tuple[Mapping[str, Any], ...]
         text=f"{text}; the beam audit finds {len(light)}" if light else text,
         diagnostics=(*broken, *light),
     ), judged
+
+
+def recipes(
+    candidate: Candidate, setup: Setup, read: CheckRecipes, revision: Callable[[str], bool]
+) -> Check:  # fmt: skip
+    """Return whether the recipes of a lab can be run on its bench, as far as that is known before they run."""
+    names, found = read(setup, shown_path(candidate.root), candidate.files, revision)
+    failed = any(d.severity == "error" for d in found)
+    text = first(found) if failed else f"{len(names)} {'recipe' if len(names) == 1 else 'recipes'}" if names else "none"
+    return Check(question="recipes", verdict="failed" if failed else "passed", text=text, diagnostics=found)
 
 
 def _broken(rule: Mapping[str, Any]) -> Diagnostic:

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from pico.bench.checking import questions, trial
 from pico.bench.checking.candidate import Candidate, Origin, bench_changes, start
-from pico.bench.checking.questions import Case
+from pico.bench.checking.questions import Case, CheckRecipes
 from pico.bench.checking.verdict import QUESTIONS, Check, LabChecked
 from pico.history.lab.folder import between
 from pico.model.plan import Plan
@@ -32,6 +32,17 @@ def check_lab(candidate: Candidate, before: Origin, *, what: str, fidelity: str,
     found = replace(found, notes=notes, changes=between(known, (setup, wanted)), bench=bench_changes(setup, before))
     seen = trial.stood_as(setup, begin)
     return _physical(found, Case(candidate, setup, wanted, seen, before.against.commit, what, fidelity))
+
+
+def with_recipes(
+    found: LabChecked, candidate: Candidate, recipes: CheckRecipes, revision: Callable[[str], bool]
+) -> LabChecked:
+    """Return what became of a lab, with whether its recipes are right; a lab that can't be read has no bench for them.
+    `revision`: whether there is one of a name."""
+    if candidate.manifests.setup is None or not candidate.valid:
+        return _with(found, Check(question="recipes", verdict="skipped", text="the manifests are not valid"))
+    setup = candidate.manifests.setup
+    return _with(found, _timed(lambda: questions.recipes(candidate, setup, recipes, revision)))
 
 
 def _physical(found: LabChecked, case: Case) -> LabChecked:

@@ -13,11 +13,12 @@ from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.trace.expectation import Expected
 
-Question = Literal["valid", "formatted", "stands", "feasible", "expectations", "policy"]
+Question = Literal["valid", "formatted", "stands", "feasible", "expectations", "policy", "recipes"]
 Verdict = Literal["passed", "advised", "failed", "skipped"]
 
 SCHEMA = "pico.check/v1"
 QUESTIONS: tuple[Question, ...] = ("valid", "formatted", "stands", "feasible", "expectations", "policy")
+"""Those about the manifests, in order; the recipes come last."""
 TITLES: Mapping[Question, str] = {
     "valid": "the manifests are valid",
     "formatted": "they are in the normal form",
@@ -25,6 +26,7 @@ TITLES: Mapping[Question, str] = {
     "feasible": "a plan leads there",
     "expectations": "the simulator gets there, and its expectations hold",
     "policy": "the policy of the lab allows it",
+    "recipes": "its recipes are right",
 }
 _CODES: Mapping[Question, ExitCode] = {
     "valid": ExitCode.ERROR,
@@ -32,6 +34,7 @@ _CODES: Mapping[Question, ExitCode] = {
     "feasible": ExitCode.IMPOSSIBLE,
     "expectations": ExitCode.EXPECTATION,
     "policy": ExitCode.DENIED,
+    "recipes": ExitCode.ERROR,
 }
 
 

@@ -239,3 +239,29 @@ def test_a_picture_does_not_follow_a_link_that_a_branch_put_there(lab: Lab, tmp_
 def test_there_is_no_such_fidelity(lab: Lab) -> None:
     with pytest.raises(PicoError, match="physic"):
         checked(lab, fidelity="physic")
+
+
+def test_a_recipe_that_can_not_run_is_refused_with_file_and_line(lab: Lab) -> None:
+    """With the revisions of the lab, and those that only `origin` has in a fresh clone."""
+    from pico.recipes.checking import check_recipes
+
+    folder = lab.root / "recipes"
+    shutil.rmtree(folder)
+    folder.mkdir()
+    head = "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: one}\nsteps:\n"
+    (folder / "one.yaml").write_text(f"{head}- apply: e1\n- call: two\n")
+    (folder / "two.yaml").write_text(f"{head}- set: {{p1.angle: 3}}\n")
+    lab.git("checkout", "-q", "--detach")
+    lab.git("update-ref", "refs/remotes/origin/e1", "e1")
+    lab.git("branch", "-q", "-D", "e1")
+    fine = checked(lab, recipes=check_recipes)
+    assert fine.exit_code == 0 and fine.labs[0].checks[-1].text == "2 recipes"
+    (folder / "broken.yaml").write_text(f"{head}- move: {{p9: {{x: 10}}}}\n- set: {{p1.angel: 900}}\n- apply: e9\n")
+    found = checked(lab, recipes=check_recipes)
+    assert found.exit_code == 1 and verdicts(found)["recipes"] == "failed"
+    wrong = found.labs[0].checks[-1].diagnostics
+    assert [(d.source.path, d.source.start.line) for d in wrong if d.source] == [
+        ("recipes/broken.yaml", line) for line in (5, 6, 7)
+    ]
+    lab.edit("exposure: 10", "exposure: 2 kg")
+    assert verdicts(checked(lab, recipes=check_recipes))["recipes"] == "skipped"
