@@ -134,15 +134,16 @@ def scope_of(context: typer.Context) -> tuple[str, ...]:
 
 
 def pairs(words: list[str] | None, positional: tuple[str, ...] = ()) -> dict[str, str]:
-    """Return `key=value` words as a mapping; bare words take the names of `positional` in turn.
+    """Return `key=value` words as a mapping; bare words take the names of `positional` in turn. The value of a step
+    begins with its sign: `angle+=5` is `angle` and `+=5`.
 
     Raises PicoError for a word without `=` that has no name.
     """
     found: dict[str, str] = {}
     names = iter(positional)
     for word in words or []:
-        key, equals, value = word.partition("=")
-        if not equals:
+        key, value = _assigned(word)
+        if "=" not in word:
             key, value = _named(word, names), word
         if key in found:
             raise PicoError(error("usage", f"`{key}` is given twice"))
@@ -150,8 +151,18 @@ def pairs(words: list[str] | None, positional: tuple[str, ...] = ()) -> dict[str
     return found
 
 
+def _assigned(word: str) -> tuple[str, str]:
+    """Return the name and the value of `angle=3`, `angle += 5`; a word without `=` is a name."""
+    key, equals, value = word.partition("=")
+    key = key.rstrip()
+    if equals and key.endswith(("+", "-")):
+        key, value = key[:-1], f"{key[-1]}={value}"
+    return key.strip(), value.strip()
+
+
 def value_of(address: str, words: list[str]) -> tuple[str, dict[str, str]]:
-    """Return the component and the value of its tunable: of `p1.angle 3 deg`, `p1.angle=3`, `p1 angle=3`."""
+    """Return the component and the values of its tunables: of `p1.angle 3 deg`, `p1.angle=3`, `p1 angle=3 tip=1`,
+    `p1 angle+=5`."""
     for word in words:
         if word.startswith("--"):
             _named(word, iter(()))
@@ -159,8 +170,8 @@ def value_of(address: str, words: list[str]) -> tuple[str, dict[str, str]]:
     if sum("=" in word for word in words) > 1:
         return component, pairs(words)
     said = " ".join([tunable, *words]).strip()
-    name, _, value = said.partition("=" if "=" in said else " ")
-    return component, {name.strip(): value.strip()} if said else {}
+    name, value = _assigned(said) if "=" in said else said.split(maxsplit=1) if " " in said else (said, "")
+    return component, {name: value.strip()} if said else {}
 
 
 def _named(word: str, names: Iterator[str]) -> str:

@@ -66,7 +66,7 @@ def check(
       pico check --report report.md --junit checks.xml
     """
     from pico.bench.checking import check
-    from pico.recipes.checking import check_recipes
+    from pico.recipes.reading import check_recipes
 
     session = Session.of(context)
     folder = _folder(session, report, pictures)

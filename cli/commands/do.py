@@ -6,8 +6,8 @@ from typing import Annotated
 
 import typer
 
-from ..arguments import Component, DryRun, Fidelity, LockTimeout, Pairs, Speed, Yes, pairs
-from ..runs.approving import single
+from ..arguments import Component, DryRun, Fidelity, LockTimeout, Manifest, Pairs, Speed, Yes, pairs
+from ..runs.approving import single, written
 from ..session import Session
 
 SETTINGS = {"ignore_unknown_options": True}
@@ -22,13 +22,15 @@ def do(
     arguments: Pairs = None,
     speed: Speed = None,
     dry_run: DryRun = False,
+    manifest: Manifest = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
     """Run one primitive of a component, checked as a plan is.
 
-    The manifest stays as it is: `pico capture` takes the result into it.
+    The manifest stays as it is: `pico capture` takes the result into it. With --manifest a move, a stow or a set
+    changes it alone, and counts from what it says.
 
     Examples:
       pico do p2 move x=500 y=420 yaw=30
@@ -39,4 +41,6 @@ def do(
     from pico.model.primitive import primitive as known
 
     given = pairs(arguments, tuple(known(primitive).arguments))
+    if manifest:
+        return written(Session.of(context), component, primitive, given, dry_run)
     return single(Session.of(context), component, primitive, given, speed, dry_run, fidelity, auto_approve)

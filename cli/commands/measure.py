@@ -15,7 +15,9 @@ from ..views import report as report_view
 
 def measure(
     context: typer.Context,
-    what: Annotated[str, typer.Argument(metavar="COMPONENT.MEASURABLE", help="With kernels: 'cam.image | centroid'.")],
+    what: Annotated[
+        list[str], typer.Argument(metavar="COMPONENT.MEASURABLE...", help="With kernels: 'cam.image | centroid'.")
+    ],
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="PNG", help="Keep what the camera saw as a picture.")
     ] = None,
@@ -28,30 +30,41 @@ def measure(
 
     Arms park first, and what the measurable needs is set for it and set back. Kernels make numbers of pictures, each
     with one standard deviation: `pico catalog show beam_camera` lists what a camera has, any others go behind a `|`.
-    What is saturated has no value; then the exit code is 1.
+    What is saturated has no value; then the exit code is 1. If a detector reads no light, what shuts it off is named.
+    Several are measured in one run.
 
     Examples:
       pico measure cam.centroid
+      pico measure fc.power pm.power
       pico measure cam.image --picture spot.png
       pico measure 'cam.image | background | mode_overlap(radius=450)'
     """
-    from pico.diagnostics import ExitCode
+    from pico.diagnostics import ExitCode, PicoError, error
 
     from ..runs.approving import measured
 
+    if picture is not None and len(what) > 1:
+        raise PicoError(
+            error("usage", "--picture is of one measurement", hint=f"`pico measure {what[0]} --picture PNG`")
+        )
     session = Session.of(context)
-    component, _, measurable = (word.strip() for word in what.partition("."))
     bench = session.bench(fidelity, None, writing=not dry_run)
-    plan = bench.plans.single(component, "measure", {"measurable": measurable} if measurable else {})
+    plan = bench.plans.to_measure(what)
     report = measured(session, bench, plan, auto_approve, dry_run)
     if isinstance(report, int):
         return report
-    found = next(iter(report.measurements.values()), None)
-    if report.exit_code or found is None:  # also where it was measured, and what was set for it not set back
+    if report.exit_code or not report.measurements:  # also if it was measured, and what was set for it not set back
         session.say(report_view.text(report))
         session.report(report.diagnostics)
-    if found is None:
-        return int(report.exit_code) or ExitCode.ERROR
-    session.show(view, found, run=report.run, advice=bench.measurements.advice(found))
-    session.draw(picture, found.address, lambda path: bench.measurements.picture(found, path))
-    return int(report.exit_code) or (ExitCode.ERROR if found.unknown else ExitCode.DONE)
+
+    def draw(path: Path) -> None:
+        bench.measurements.picture(next(iter(report.measurements.values())), path)
+
+    for found in report.measurements.values():
+        dark = bench.measurements.darkness(found)
+        advice = "" if dark else bench.measurements.advice(found)
+        session.show(view, found, run=report.run, advice=advice, diagnostics=[dark] if dark else [])
+        session.tell([dark] if dark else [])
+        session.draw(picture, found.address, draw)
+    unknown = any(found.unknown for found in report.measurements.values()) or not report.measurements
+    return int(report.exit_code) or (ExitCode.ERROR if unknown else ExitCode.DONE)

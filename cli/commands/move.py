@@ -23,18 +23,18 @@ def move(
 ) -> int:  # fmt: skip
     """Move a component: to a pose, by an angle, to a slot, home.
 
-    What is not named of x, y and yaw stays; `turn` counts from where it stands, `distance` from the optical plane of
-    the other one, the way that one faces. The manifest stays as it is; with --manifest it alone changes, and what is
-    not named stays as it is there.
+    What is not named of x, y and yaw stays; `turn`, `x+=` and `y-=` count from where it stands, `distance` from the
+    optical plane of the other one, the way that one faces. The manifest stays as it is; with --manifest it alone
+    changes: what is not named stays as it is there, and steps count from there.
 
     Examples:
       pico move p2 x=500 y=420 yaw=30
-      pico move p2 turn=-5
+      pico move p2 x+=10 turn=-5
       pico move p2 storage/b2
       pico move p2 home
       pico move ly_150 after=p2 distance=150
     """
     given = pairs(arguments, ("x", "y", "yaw"))
     if manifest:
-        return written(Session.of(context), component, "move", given, ("pose",), dry_run)
+        return written(Session.of(context), component, "move", given, dry_run)
     return single(Session.of(context), component, "move", given, speed, dry_run, fidelity, auto_approve)

@@ -242,7 +242,7 @@ def _carry_out(
     session.tell(outcome.diagnostics)
     if junit:
         tried = Rehearsed.of(recipe.name, outcome, took)
-        write_whole(session.folder / junit, in_junit([tried], recipes.bench.setup.lab.name).encode())
+        write_whole(session.folder / junit, in_junit({recipes.bench.setup.lab.name: [tried]}).encode())
     return int(outcome.exit_code)
 
 

@@ -6,7 +6,7 @@ from contextlib import nullcontext, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.diagnostics import ExitCode, PicoError
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.policy.consent import asked_about, lights
 
 from ..session import Session
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from pico.model.setup import Setup
     from pico.model.trace.report import RunReport
 
-AXES = ("x", "y", "yaw")
 FEW = 3
 """So many components are named."""
 
@@ -93,22 +92,18 @@ def single(
 
 
 def written(
-    session: Session,
-    component: str,
-    primitive: str,
-    arguments: dict[str, str],
-    tunables: tuple[str, ...],
-    dry_run: bool,
-) -> int:
-    """Write what one operation would lead to into the manifest, where it can be; the bench stays."""
+    session: Session, component: str, primitive: str, arguments: dict[str, str], dry_run: bool
+) -> int:  # fmt: skip
+    """Write what one operation would lead to into the manifest, if it can be; the bench stays. What is not named, and
+    what is relative, counts from the manifest."""
+    if primitive not in ("move", "stow", "set"):
+        text = f"`{primitive}` can't be written into the manifest"
+        raise PicoError(error("usage", text, hint="--manifest goes with move, stow and set"))
     bench = session.bench(writing=not dry_run)
-    stands = bench.folder.state.components.get(component)
-    if arguments.keys() & set(AXES) and stands is not None and stands.pose is not None:
-        arguments = {axis: str(getattr(stands.pose, axis)) for axis in AXES} | arguments  # what is not named stays
-    plan = bench.plans.single(component, primitive, arguments)
+    plan = bench.plans.single(component, primitive, arguments, base=bench.folder.state)
     if plan.errored:
         return show(session, bench, plan, True, single=True)
-    only = [f"{component}.{tunable}" for tunable in tunables]
+    only = [f"{component}.{name}" for name in (arguments if primitive == "set" else ("pose",))]
     session.show(wanted_view, bench.commits.wanted(plan, *only, write=not dry_run))
     return ExitCode.DONE
 

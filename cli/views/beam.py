@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
+from .measured import power
 from .style import columns, number, paint, wrap
 
 if TYPE_CHECKING:
@@ -99,14 +100,6 @@ def _front(row: BeamRow) -> str:
     if found is None or abs(found) > 1e5:
         return "flat"
     return f"{'diverges' if found > 0 else 'converges'} {abs(found):.0f} mm"
-
-
-def power(value: float) -> str:
-    """Return a power [mW] in the unit in which it reads best."""
-    for unit, scale in (("mW", 1.0), ("uW", 1e3), ("nW", 1e6)):
-        if abs(value) * scale >= 0.1:
-            return f"{value * scale:.3g} {unit}"
-    return f"{value * 1e9:.3g} pW"
 
 
 def polarization(row: BeamRow) -> str:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
-from .beam import power
+from .measured import power
 from .style import columns, count, paint, wrap
 
 if TYPE_CHECKING:

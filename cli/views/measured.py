@@ -11,6 +11,9 @@ from pico.model.measurement import Measurement
 
 from .style import number, paint
 
+_POWERS = (("W", 1e-3), ("mW", 1.0), ("uW", 1e3), ("nW", 1e6), ("pW", 1e9))
+_MILLIWATTS = {unit: 1 / scale for unit, scale in _POWERS}
+
 
 def line(found: Mapping[str, Any]) -> str:
     """Return value, unit and array of a measurement (as JSON), and what of it was not assured."""
@@ -42,6 +45,8 @@ def value(found: Any, unit: str = "", sigma: Any = None) -> str:
         )
     if isinstance(found, bool):
         return str(found).lower()
+    if isinstance(found, int | float) and unit in _MILLIWATTS:
+        return power(found * _MILLIWATTS[unit], None if sigma is None else float(sigma) * _MILLIWATTS[unit])
     if isinstance(found, int | float) and isinstance(sigma, int | float) and sigma > 0:
         digits = max(0, 1 - math.floor(math.log10(sigma)))
         said = f"{found:.{digits}f}"
@@ -49,6 +54,19 @@ def value(found: Any, unit: str = "", sigma: Any = None) -> str:
         return f"{said} ± {sigma:.{digits}f} {unit}".strip()
     said = number(found, 3) if isinstance(found, int | float) else str(found or "")
     return f"{said} {unit}".strip()
+
+
+def power(found: float, sigma: float | None = None) -> str:
+    """Return a power [mW], with one standard deviation, in the unit in which it reads best: `1.205 mW ± 0.012 mW`,
+    `0.5 nW ± 1.0 nW`."""
+    size = max(abs(found), sigma or 0.0)
+    unit, scale = next(((u, s) for u, s in _POWERS if size * s >= 0.1), _POWERS[-1])
+    if not sigma:
+        return f"{found * scale:.3g} {unit}"
+    digits = max(0, 1 - math.floor(math.log10(sigma * scale)))
+    said = f"{found * scale:.{digits}f}"
+    said = said.removeprefix("-") if float(said) == 0 else said
+    return f"{said} {unit} ± {sigma * scale:.{digits}f} {unit}"
 
 
 def ranged(data: Mapping[str, Any]) -> str:

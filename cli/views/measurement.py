@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from pico.diagnostics import Diagnostic
 from pico.model.measurement import Measurement
 from pico.model.record import as_json
 
@@ -14,8 +15,9 @@ from .style import columns, paint, wrap
 _SETTINGS = {"exposure": "ms", "gain": "dB"}
 
 
-def text(found: Measurement, *, run: str, advice: str = "") -> str:
-    """Return the numbers with their standard deviations, and how they came about; `advice`: what to do about it."""
+def text(found: Measurement, *, run: str, advice: str = "", diagnostics: Sequence[Diagnostic] = ()) -> str:
+    """Return the numbers with their standard deviations, and how they came about; `advice`: what to do about
+    it. `diagnostics` are shown beside it."""
     if found.unknown:
         lines = wrap(f"{found.address}  {paint('yellow', 'unknown')}: {found.unknown}", "")
     elif isinstance(found.value, Mapping):
@@ -40,6 +42,8 @@ def _rows(found: Measurement) -> list[list[str]]:
     return [[name, value(one, unit, sigma)] for name, (one, sigma, unit) in found.numbers.items()]
 
 
-def data(found: Measurement, *, run: str, advice: str = "") -> dict[str, Any]:
-    """Return the measurement, schema `pico.measurement/v1`, with the `run` that took it."""
-    return {**as_json(found), "run": run}
+def data(
+    found: Measurement, *, run: str, advice: str = "", diagnostics: Sequence[Diagnostic] = ()
+) -> dict[str, Any]:  # fmt: skip
+    """Return the measurement, schema `pico.measurement/v1`, with the `run` that took it, and the `diagnostics`."""
+    return {**as_json(found), "run": run, **({"diagnostics": as_json(tuple(diagnostics))} if diagnostics else {})}

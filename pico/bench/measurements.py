@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
+from pico.diagnostics import Diagnostic, warning
 from pico.kernels.pipeline import source_of
 from pico.model.comparing.drift import drift_of
 from pico.model.plan import Plan
@@ -18,6 +19,9 @@ if TYPE_CHECKING:
     from pico.model.measurement import Measurement
     from pico.model.trace.expectation import GoalRead, Verified
     from pico.model.trace.report import PartRow, RunReport
+
+NOISE = 3.0
+"""So many standard deviations a reading may be from zero and still be noise."""
 
 
 @dataclass(frozen=True)
@@ -71,11 +75,23 @@ class Measurements:
             return "weaken the beam with a filter, or lower the gain"
         return self.dark() if found.unknown else ""
 
+    def darkness(self, found: Measurement) -> Diagnostic | None:
+        """Return why no light comes to a detector that reads none within its noise, as far as the bench says it."""
+        from pico.planning.darkness import darkness, detects
+
+        opened = self.opened
+        if not detects(opened.setup, found.component) or found.measurable == "dark" or not _within_noise(found):
+            return None
+        reasons = darkness(opened.setup, opened.observe(), opened.folder.state_now(), found.component)
+        if not reasons:
+            return None
+        text = f"no light reaches {found.component}: {', '.join(reasons)}"
+        sources = [one.partition(".")[0].partition(" ")[0] for one in reasons]
+        hint = "; ".join(self._arming(dict.fromkeys(sources))) or "`pico beam` shows where the light goes"
+        return warning("dark", text, hint=hint, address=found.component)
+
     def dark(self) -> str:
         """Return what keeps light back on the bench, or where to see where it goes."""
-        from pico.optics.audit.lasers import laser_class
-        from pico.planning.checks.emission import licensed
-
         setup, seen = self.opened.setup, self.opened.observe()
         known = seen.known_values
         dark = [
@@ -85,11 +101,19 @@ class Measurements:
             for tunable, value in sorted(known.get(name, {}).items())
             if (tunable, value) in (("shutter", "closed"), ("emission", False))
         ]
-        shut = dict.fromkeys(one.partition(".")[0] for one in dark)
-        sources = [n for n in shut if setup.type_of(n).optics.element == "source"]
-        unarmed = [n for n in sources if not licensed(seen, n, laser_class(setup, n, known.get(n, {}))[0])]
-        opens = [f"`pico laser arm {name}` opens it" for name in unarmed]
+        opens = self._arming(dict.fromkeys(one.partition(".")[0] for one in dark))
         return "; ".join([", ".join(dark), *opens]) if dark else "`pico beam` shows where the light goes"
+
+    def _arming(self, names: Iterable[str]) -> list[str]:
+        """Return how those of some parts that are lasers nobody armed are opened."""
+        from pico.optics.audit.lasers import laser_class
+        from pico.planning.checks.emission import licensed
+
+        setup, seen = self.opened.setup, self.opened.observe()
+        known = seen.known_values
+        sources = [n for n in names if n in setup.lab.inventory and setup.type_of(n).optics.element == "source"]
+        unarmed = [n for n in sources if not licensed(seen, n, laser_class(setup, n, known.get(n, {}))[0])]
+        return [f"`pico laser arm {name}` opens it" for name in unarmed]
 
     def _measurables(self) -> frozenset[str]:
         return self.opened.wait(self.opened.edge.describe()).measurables
@@ -172,3 +196,11 @@ class Measurements:
         seen = self.opened.observe()
         found = check_expectations(self.opened.setup, seen, plan.target.expect or (), self._measurables())
         return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)
+
+
+def _within_noise(found: Measurement) -> bool:
+    """Return whether a measurement has no number beyond its noise; one that is unknown has none."""
+    if found.unknown:
+        return True
+    read = [(value, sigma) for value, sigma, _ in found.numbers.values() if isinstance(value, int | float)]
+    return bool(read) and all(sigma is not None and abs(value) <= NOISE * sigma for value, sigma in read)

@@ -21,7 +21,7 @@ from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation
 from pico.model.plan import Plan, Spoiled, Target
 from pico.model.quantities import Value
-from pico.model.request import PrimitiveRequest, asked
+from pico.model.request import PrimitiveRequest, as_stated, asked, value_at
 from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
@@ -311,15 +311,32 @@ class Plans:
         planner = self.planner(seen)
         return self.judged(planner.plan(planning.measure(planner, wanted, goals)), seen)
 
+    def to_measure(self, what: Sequence[str]) -> Plan:
+        """Return the plan that measures what a person names (`cam.centroid`, `cam`, `cam.image | centroid`), in this
+        order; raises PicoError for nonsense."""
+        from pico import planning
+
+        seen = self._seen()
+        asks = [tuple(word.strip() for word in one.partition(".")[::2]) for one in what]
+        if len(asks) == 1:
+            return self.single(asks[0][0], "measure", {"measurable": asks[0][1]} if asks[0][1] else {})
+        wanted = [
+            (one.component, str(one.measurable))
+            for name, own in asks
+            for one in [asked(self.opened.setup, seen, name, "measure", {"measurable": own} if own else {})]
+        ]
+        planner = self.planner(seen)
+        return self._able(planner, planning.measure(planner, [*dict.fromkeys(wanted)]))
+
     def setting(self, values: Mapping[str, Value]) -> Plan:
         """Return the plan that brings tunables to values exactly, by address (`p1.angle`), side by side as far as their
-        motors can; nothing else is set or moved."""
-        if len(values) == 1:
-            ((address, value),) = values.items()
-            component, _, tunable = address.partition(".")
-            return self.single(component, "set", {tunable: written(value)})
-        seen = self._seen()
-        return self._asked(seen, with_values(live_state(self.opened.setup, seen), values), values)
+        motors can; nothing else is set or moved. Raises PicoError for a value out of range."""
+        parts = {address.partition(".")[0] for address in values}
+        if len(parts) == 1:
+            return self.single(parts.pop(), "set", {a.partition(".")[2]: written(v) for a, v in values.items()})
+        setup, seen = self.opened.setup, self._seen()
+        checked = {a: value_at(setup, a, written(v)) for a, v in values.items()}
+        return self._asked(seen, with_values(live_state(setup, seen), checked), checked)
 
     def moving(self, places: Mapping[str, str | Mapping[str, float]]) -> Plan:
         """Return the plan that takes parts to slots or poses (what is not named of one stays as observed), in an order
@@ -343,12 +360,19 @@ class Plans:
         target = Target(title=", ".join(named), only=tuple(sorted(named)))
         return self.to_state(seen, PlanGoal(wanted, target, exact=True, targets=tuple(named)))
 
-    def single(self, component: str, primitive: str, arguments: Mapping[str, str] | None = None) -> Plan:
-        """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense."""
+    def single(
+        self, component: str, primitive: str, arguments: Mapping[str, str] | None = None, *,
+        base: LabState | None = None,
+    ) -> Plan:  # fmt: skip
+        """Return the plan of one primitive, its arguments as a person writes them; raises PicoError for nonsense.
+
+        What is not named, and what is relative, counts from where the bench stands, or from the state `base`.
+        """
         from pico.execution.checks import require_able
 
-        seen = self._seen()
-        found = self._one(seen, asked(self.opened.setup, seen, component, primitive, arguments or {}))
+        seen, setup = self._seen(), self.opened.setup
+        stands = seen if base is None else as_stated(setup, base)
+        found = self._one(seen, asked(setup, stands, component, primitive, arguments or {}))
         if self.opened.recording is not None:  # its edge looks at all of that
             return found
         require_able(found, self.opened.wait(self.opened.edge.describe()))
@@ -457,8 +481,7 @@ def _goal_of(planner: Planner, request: PrimitiveRequest) -> PlanGoal:
 
     name = request.component
     if request.primitive == "set":
-        assert request.tunable is not None and request.value is not None
-        return planning.set_one(planner, name, request.tunable, request.value)
+        return planning.set_values(planner, name, request.values)
     if request.primitive == "home":
         assert request.tunable is not None
         return planning.home_one(planner, name, request.tunable)

@@ -10,6 +10,7 @@ from pico.manifest.text.tree import Node, Scalar, plain
 from pico.manifest.wording import expected_quantity, quantity, shown
 from pico.model.catalog import Tunable
 from pico.model.quantities import Value
+from pico.model.setpoint import canonical
 
 _YES = {
     "on": "true",
@@ -24,11 +25,15 @@ _YES = {
 
 
 def read_value(source: Source, component: str, name: str, kind: Tunable, node: Node) -> Value | Diagnostic:
-    """Return the value of tunable `name` in the unit that its type declares, or what is wrong with it."""
+    """Return the value of tunable `name` in the unit that its type declares, or what is wrong with it. An angle that is
+    equivalent to one in range is read as that one."""
     value = node.value if isinstance(node, Scalar) else plain(node)
     if kind.datatype == "float":
         number = read_number(source, component, name, kind.unit, node)
-        if isinstance(number, Diagnostic) or kind.range is None or kind.range[0] <= number <= kind.range[1]:
+        if isinstance(number, Diagnostic):
+            return number
+        number = canonical(kind, number)
+        if kind.range is None or kind.range[0] <= number <= kind.range[1]:
             return number
         return _out_of_range(source, component, name, kind, node, number)
     if kind.datatype == "bool":

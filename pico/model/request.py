@@ -7,31 +7,32 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any
 
-from pico.diagnostics import PicoError, did_you_mean, error, slot_meant
+from pico.diagnostics import PicoError, did_you_mean, slot_meant
 from pico.kernels.pipeline import spelt
 from pico.model.address import renaming_of
 from pico.model.catalog import Tunable
 from pico.model.measurement import Measurement
-from pico.model.observation import Observation
+from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose, wrap
 from pico.model.primitive import primitive
-from pico.model.quantities import QuantityError, Value, convert
+from pico.model.quantities import Value
 from pico.model.record import as_json, record
+from pico.model.setpoint import STEP, read_quantity, read_value, stepped, wrong
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 
 
 @record
 class PrimitiveRequest:
-    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` a `tunable`, `home` it, or `measure`
-    a `measurable`; of a plug-in's the `arguments`, numbers in the units that it declares."""
+    """One primitive of one component: `move` to a `pose` or `slot`, `stow`, `set` tunables to `values`, `home` a
+    `tunable`, or `measure` a `measurable`; of a plug-in's the `arguments`, numbers in the units that it declares."""
 
     component: str
     primitive: str
     pose: Pose | None = None
     slot: str | None = None
     tunable: str | None = None
-    value: Value | None = None
+    values: Mapping[str, Value] = field(default_factory=dict)
     measurable: str | None = None
     arguments: Mapping[str, Value] = field(default_factory=dict)
 
@@ -49,11 +50,22 @@ def asked(setup: Setup, seen: Observation, component: str, name: str, arguments:
         known = sorted({*allowed, *(("measure",) if setup.measurables_of(component) else ())})
         hint = did_you_mean(name, known) or f"what can be done with it: {', '.join(known)}"
         can = "no arm can move it: only a person can" if name in ("move", "stow") else f"it knows no `{name}`"
-        raise _wrong(f"{component}: {can}", hint, component)
+        raise wrong(f"{component}: {can}", hint, component)
     if name == "scan":
-        raise _wrong(f"{name} of {component}: a scan is a step of recipes, which are not there yet", "")
+        raise wrong(f"{name} of {component}: a scan is a step of recipes, which are not there yet", "")
     reader = {"move": _move, "stow": _stow, "set": _set, "home": _home, "auto_range": _auto_range}.get(name)
     return reader(setup, seen, component, dict(arguments)) if reader else _plain(component, name, arguments)
+
+
+def as_stated(setup: Setup, state: LabState) -> Observation:
+    """Return the bench as a state says, to count from: each part where the state has it, at home if it does not name
+    it; what the state gives no number is unknown."""
+    parts = {}
+    for name in setup.lab.inventory:
+        own = state.components.get(name)
+        values = {k: ObservedValue(value=v) for k, v in own.values.items()} if own else {}
+        parts[name] = ObservedComponent(pose=place_of(setup, state, name)[1], values=values)
+    return Observation(backend="", components=parts)
 
 
 def require_component(setup: Setup, name: str) -> None:
@@ -65,7 +77,7 @@ def require_component(setup: Setup, name: str) -> None:
         if name in setup.lab.cameras:
             _refuse_on_arm(setup, name)
             hint = f"`{name}` is a camera over the bench: `pico get {name}.frame` peeks at what it sees"
-        raise _wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
+        raise wrong(f"there is no component `{name}` in {setup.lab.name}", hint)
 
 
 def _refuse_on_arm(setup: Setup, name: str) -> None:
@@ -73,7 +85,7 @@ def _refuse_on_arm(setup: Setup, name: str) -> None:
     if robot := setup.lab.cameras[name].robot:
         over = next((c for c, camera in setup.lab.cameras.items() if not camera.robot), None)
         hint = f"over the bench is `{over}`: `pico get {over}.frame` peeks at what it sees" if over else ""
-        raise _wrong(f"`{name}` is the camera on {robot}, through which only runs look", hint)
+        raise wrong(f"`{name}` is the camera on {robot}, through which only runs look", hint)
 
 
 def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
@@ -83,45 +95,54 @@ def _move(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     if slot is not None:
         _only(name, "move", given, ())
         if slot not in setup.lab.slots:
-            raise _wrong(f"there is no slot `{slot}`", slot_meant(slot, setup.lab.slots), name)
+            raise wrong(f"there is no slot `{slot}`", slot_meant(slot, setup.lab.slots), name)
         return PrimitiveRequest(component=name, primitive="move", slot=slot)
-    _absolute(setup, seen, name, given)
+    _refuse_names(setup, name, given)
     _only(name, "move", given, primitive("move").arguments)
     if not given:
-        raise _wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
+        raise wrong(f"where to move {name}?", f"`pico move {name} x=500 y=420 yaw=30`, or `slot=NAME`", name)
     if "after" in given or "distance" in given:
         return _after(setup, seen, name, given)
     part = seen.components.get(name)
     if part is None or part.pose is None:
-        raise _wrong(f"nobody sees {name}, so it can't be moved", "put it where it is seen", name)
-    pose = part.pose
-    turn = _quantity(f"turn of {name}", given["turn"], "deg") if "turn" in given else 0.0
-    x, y = (_quantity(f"{k} of {name}", given[k], "mm") if k in given else getattr(pose, k) for k in ("x", "y"))
-    yaw = _quantity(f"yaw of {name}", given["yaw"], "deg") if "yaw" in given else pose.yaw
-    return PrimitiveRequest(component=name, primitive="move", pose=Pose(x, y, wrap(yaw + turn)))
+        raise wrong(f"nobody sees {name}, so it can't be moved", "put it where it is seen", name)
+    turn = read_quantity(f"turn of {name}", given["turn"], "deg") if "turn" in given else 0.0
+    x, y, yaw = (_axis(name, part.pose, axis, given.get(axis)) for axis in ("x", "y", "yaw"))
+    return PrimitiveRequest(component=name, primitive="move", pose=Pose(x, y, wrap(stepped(yaw, turn))))
 
 
-def _absolute(setup: Setup, seen: Observation, name: str, given: Mapping[str, str]) -> None:
-    """Raise PicoError for a step where a place is wanted, and for a slot that is named by its last word."""
+def _axis(name: str, pose: Pose, axis: str, text: str | None) -> float:
+    """Return a coordinate of a pose as a person writes it: a place, a step from where it is (`+=5`), None for that."""
+    here = float(getattr(pose, axis))
+    if text is None:
+        return here
+    step = STEP.fullmatch(text)
+    value = read_quantity(f"{axis} of {name}", step[2] if step else text, "deg" if axis == "yaw" else "mm")
+    return stepped(here, value if step[1] == "+" else -value) if step else value
+
+
+def _refuse_names(setup: Setup, name: str, given: Mapping[str, str]) -> None:
+    """Raise PicoError for a step under another name, and for a slot that is named by its last word."""
     if "dyaw" in given:
-        raise _wrong(f"move of {name} takes no `dyaw`", f"`pico move {name} turn={given['dyaw']}`", name)
-    pose = seen.components[name].pose if name in seen.components else None
+        raise wrong(f"move of {name} takes no `dyaw`", f"`pico move {name} turn={given['dyaw']}`", name)
     for axis in ("x", "y"):
-        if (step := given.get(f"d{axis}")) is not None and pose is not None:
-            stands = getattr(pose, axis)
-            there = stands + _quantity(f"d{axis} of {name}", step, "mm")
-            hint = f"{axis} counts from the table's corner; {name} stands at {axis}={stands:.6g}: `{axis}={there:.6g}`"
-            raise _wrong(f"move of {name} takes no `d{axis}`", hint, name)
+        if (step := given.get(f"d{axis}")) is not None:
+            raise wrong(f"move of {name} takes no `d{axis}`", f"`pico move {name} {_step(axis, step)}`", name)
     if given.get("x") in {slot.rpartition("/")[2] for slot in setup.lab.slots}:
-        raise _wrong(f"there is no slot `{given['x']}`", slot_meant(given["x"], setup.lab.slots), name)
+        raise wrong(f"there is no slot `{given['x']}`", slot_meant(given["x"], setup.lab.slots), name)
+
+
+def _step(axis: str, step: str) -> str:
+    """Return how a step along an axis is written."""
+    return f"{axis}-={step[1:]}" if step.startswith("-") else f"{axis}+={step.removeprefix('+')}"
 
 
 def _after(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     _only(name, "move after another", given, ("after", "distance"))
     if len(given) < 2:
-        raise _wrong(f"where to move {name}?", f"`pico move {name} after=OTHER distance=MM` takes both", name)
+        raise wrong(f"where to move {name}?", f"`pico move {name} after=OTHER distance=MM` takes both", name)
     require_seen(setup, seen, name, given["after"])
-    distance = _quantity(f"distance of {name}", given["distance"], "mm")
+    distance = read_quantity(f"distance of {name}", given["distance"], "mm")
     pose = place_after(setup, seen, name, given["after"], distance)
     return PrimitiveRequest(component=name, primitive="move", pose=pose)
 
@@ -130,21 +151,45 @@ def _stow(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     _only(name, "stow", given, ())
     home = setup.lab.inventory[name].home
     if home is None:
-        raise _wrong(f"{name} has no home slot: the lab fixes its pose", "", name)
+        raise wrong(f"{name} has no home slot: the lab fixes its pose", "", name)
     return PrimitiveRequest(component=name, primitive="stow", slot=home)
 
 
 def _set(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     tunables = setup.type_of(name).tunables
-    _only(name, "set", given, tunables)
-    if len(given) != 1:
-        raise _wrong(
-            f"set takes one tunable of {name}", f"`pico set {name} {next(iter(tunables), 'TUNABLE')}=VALUE`", name
-        )
-    ((tunable, text),) = given.items()
-    return PrimitiveRequest(
-        component=name, primitive="set", tunable=tunable, value=read_value(name, tunable, tunables[tunable], text)
-    )
+    for word in given.keys() - tunables.keys():
+        raise wrong(f"set of {name} takes no `{word}`", _set_instead(setup, name, word), name)
+    if not given:
+        text = f"which tunable of {name}?"
+        raise wrong(text, f"`pico set {name} {next(iter(tunables), 'TUNABLE')}=VALUE`", name)
+    live = seen.components[name].values if name in seen.components else {}
+    known = {k: v.value for k, v in live.items() if v.status != "unknown"}
+    values = {k: read_value(name, k, tunables[k], text, known.get(k)) for k, text in given.items()}
+    return PrimitiveRequest(component=name, primitive="set", values=values)
+
+
+def value_at(setup: Setup, address: str, text: str) -> Value:
+    """Return the value of a tunable by its address (`p1.angle`), from how a person writes it; raises PicoError."""
+    component, _, tunable = address.partition(".")
+    return read_value(component, tunable, setup.type_of(component).tunables[tunable], text)
+
+
+def _set_instead(setup: Setup, name: str, word: str) -> str:
+    """Return what to type for a word that names no tunable: of a value alone the tunable that may be meant with it."""
+    tunables = setup.type_of(name).tunables
+    fitting = [k for k, kind in tunables.items() if kind.mover != "none" and _fits(name, k, kind, word)]
+    if fitting:
+        return " or ".join(f"`pico set {name} {k}={word}`" for k in fitting)
+    return did_you_mean(word, tunables)
+
+
+def _fits(component: str, name: str, kind: Tunable, text: str) -> bool:
+    """Return whether a text is a value of a tunable."""
+    try:
+        read_value(component, name, kind, text, 0.0)
+    except PicoError:
+        return False
+    return True
 
 
 def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
@@ -153,14 +198,14 @@ def _home(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> 
     tunable = given.get("tunable") or (axes[0] if len(axes) == 1 else "")
     if tunable not in axes:
         known = f"{name} has " + (f"the axes {', '.join(axes)}" if axes else "no axis that homes")
-        raise _wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
+        raise wrong(f"which axis of {name}?" if not tunable else f"`{tunable}` of {name} does not home", known, name)
     return PrimitiveRequest(component=name, primitive="home", tunable=tunable)
 
 
 def _auto_range(setup: Setup, seen: Observation, name: str, given: dict[str, str]) -> PrimitiveRequest:
     tunable = given.get("tunable", "exposure")
     if tunable not in setup.type_of(name).tunables:
-        raise _wrong(f"{name} has no tunable `{tunable}`", "auto_range sets the exposure of a camera", name)
+        raise wrong(f"{name} has no tunable `{tunable}`", "auto_range sets the exposure of a camera", name)
     return PrimitiveRequest(component=name, primitive="auto_range", arguments={"tunable": tunable})
 
 
@@ -184,41 +229,10 @@ def _plain(name: str, asked: str, given: Mapping[str, str]) -> PrimitiveRequest:
     known = primitive(asked).arguments
     _only(name, asked, given, known)
     if missing := [key for key in known if key not in given]:
-        raise _wrong(f"{asked} of {name} wants `{missing[0]}`", f"`pico do {name} {asked} {missing[0]}=...`", name)
+        raise wrong(f"{asked} of {name} wants `{missing[0]}`", f"`pico do {name} {asked} {missing[0]}=...`", name)
     units = {key: known[key] for key in given}
-    read = {k: v if (u := units[k]) is None else _quantity(f"{k} of {name}", v, u) for k, v in given.items()}
+    read = {k: v if (u := units[k]) is None else read_quantity(f"{k} of {name}", v, u) for k, v in given.items()}
     return PrimitiveRequest(component=name, primitive=asked, arguments=read)
-
-
-def read_value(component: str, name: str, kind: Tunable, text: str) -> Value:
-    """Return a tunable's value from how a person writes it; raises PicoError for another type, unit or range."""
-    subject = f"{name} of {component}"
-    if kind.datatype == "bool":
-        if text not in ("true", "false"):
-            raise _wrong(f"{subject} is true or false, not `{text}`", "", component)
-        return text == "true"
-    if kind.datatype == "choice":
-        if text not in (kind.choices or ()):
-            raise _wrong(f"{subject} has no choice `{text}`", did_you_mean(text, kind.choices or ()), component)
-        return text
-    value = _quantity(subject, text, kind.unit)
-    if kind.range and not kind.range[0] <= value <= kind.range[1]:
-        low, high = kind.range
-        raise _wrong(f"{subject} goes from {low:g} to {high:g} {kind.unit}, not to {value:g}", "", component)
-    return value
-
-
-def _quantity(subject: str, text: str, unit: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        try:
-            value = float(convert(text, unit))
-        except QuantityError as exc:
-            raise _wrong(f"{subject}: {exc}", "") from exc
-    if not math.isfinite(value):
-        raise _wrong(f"{subject} must be a finite number", "")
-    return value
 
 
 def _only(name: str, asked: str, given: Mapping[str, str], known: Iterable[str]) -> None:
@@ -226,11 +240,7 @@ def _only(name: str, asked: str, given: Mapping[str, str], known: Iterable[str])
     for key in given:
         if key not in names:
             hint = did_you_mean(key, names) or (f"known: {', '.join(names)}" if names else "it takes no arguments")
-            raise _wrong(f"{asked} of {name} takes no `{key}`", hint, name)
-
-
-def _wrong(summary: str, hint: str, address: str = "") -> PicoError:
-    return PicoError(error("request", summary, hint=hint, address=address))
+            raise wrong(f"{asked} of {name} takes no `{key}`", hint, name)
 
 
 def place_after(setup: Setup, where: Observation | LabState, name: str, other: str, distance_mm: float) -> Pose:
@@ -262,7 +272,7 @@ def require_seen(setup: Setup, seen: Observation, *names: str) -> None:
         require_component(setup, name)
         part = seen.components.get(name)
         if part is None or part.pose is None or part.presence != "seen":
-            raise _wrong(f"nobody sees {name}", "put it where it is seen", name)
+            raise wrong(f"nobody sees {name}", "put it where it is seen", name)
 
 
 def read_peeked(measurement: Measurement) -> dict[str, Any]:
@@ -281,7 +291,7 @@ def read_values(
     require_component(setup, component)
     kinds = setup.type_of(component).tunables
     if tunable is not None and tunable != "pose" and tunable not in kinds:
-        raise _wrong(f"{component} has no tunable `{tunable}`", did_you_mean(tunable, ["pose", *kinds]), component)
+        raise wrong(f"{component} has no tunable `{tunable}`", did_you_mean(tunable, ["pose", *kinds]), component)
     part = seen.components.get(component)
     presence = part.presence if part else "missing"
     pose = as_json(part.pose) if part and part.pose else None

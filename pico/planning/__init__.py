@@ -10,12 +10,12 @@ from pico.planning.single import (
     move_one,
     optimize_one,
     park,
-    set_one,
+    set_values,
     survey,
     teleoperate_one,
 )
 
 __all__ = [
-    "PlanGoal", "Planner", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "park", "set_one",
+    "PlanGoal", "Planner", "arm_one", "do_one", "home_one", "measure", "move_one", "optimize_one", "park", "set_values",
     "survey", "teleoperate_one",
 ]  # fmt: skip

@@ -40,7 +40,7 @@ class Planner:
 
         planner = Planner(setup, ArmMotion(setup), seen)
         planner.plan(PlanGoal(wanted))
-        planner.plan(set_one(planner, "p1", "angle", 30.0))
+        planner.plan(set_values(planner, "p1", {"angle": 30.0}))
     """
 
     setup: Setup

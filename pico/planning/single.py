@@ -59,12 +59,12 @@ def move_one(planner: Planner, component: str, to: Pose | str) -> PlanGoal:
     return PlanGoal(wanted, Target(cause="single"), exact=not isinstance(to, str), alone=component)
 
 
-def set_one(planner: Planner, component: str, tunable: str, value: Value) -> PlanGoal:
-    """Return the goal that brings one tunable to a value.
+def set_values(planner: Planner, component: str, values: Mapping[str, Value]) -> PlanGoal:
+    """Return the goal that brings tunables of a component to values, side by side as far as their motors can.
 
-    The value is taken as it is. Raises PicoError for a component or tunable that there is not.
+    The values are taken as they are. Raises PicoError for a component or tunable that there is not.
     """
-    return _set(planner, {(component, tunable): value})
+    return _set(planner, {(component, tunable): value for tunable, value in values.items()})
 
 
 def home_one(planner: Planner, component: str, tunable: str) -> PlanGoal:

@@ -14,11 +14,12 @@ from pico.kernels.measured import units_by
 from pico.kernels.pipeline import source_of
 from pico.manifest.text.names import name_problem
 from pico.manifest.text.tree import Document, List, Map, Node, Scalar, plain
-from pico.manifest.text.within import inside
+from pico.manifest.text.within import inside, places_of
 from pico.manifest.values import read_value
 from pico.manifest.wording import expected_quantity, quantity, shown
 from pico.model.catalog import Tunable
 from pico.model.quantities import QuantityError, convert
+from pico.model.setpoint import STEP, canonical
 from pico.model.setup import Setup
 from pico.model.vocabulary import numbers_of
 from pico.recipes.recipe import Name
@@ -85,7 +86,7 @@ class Reader:
         if not isinstance(node, Scalar) or isinstance(node.value, bool) or node.value is None:
             told = shown(plain(node))
             return self.wrong(node, "type", f"{what} is {told}, not a number", label=expected_quantity(unit))
-        if isinstance(node.value, int | float) or (_QUANTITY.match(node.text) and _is_quantity(node.text, unit)):
+        if _is_number(node, unit):
             value, code, said = quantity(what, node.value, unit)
             if value is None:
                 return self.wrong(node, code, said, label=expected_quantity(unit))
@@ -94,6 +95,18 @@ class Reader:
                 return self.wrong(node, "range", f"{what} is out of range: {value:g} {unit}".rstrip(), label=limits)
             return literal(value)
         return self.expression(scope, node, "number", what, unit)
+
+    def stepping(
+        self, scope: Scope, node: Node, now: str, what: str, unit: str = "", low: float | None = None,
+        high: float | None = None,
+    ) -> Term:  # fmt: skip
+        """Return a number, or a step from the present value, whose name in expressions is `now`: `+=5`, `-= tilt`."""
+        step = STEP.fullmatch(node.text) if isinstance(node, Scalar) else None
+        if step is None or not isinstance(node, Scalar):
+            return self.number(scope, node, what, unit, low, high)
+        places = places_of(self.document.source.content, node)
+        by = self.number(scope, Scalar(step[2], "", places[step.start(2)], places[-1]), f"the step of {what}", unit)
+        return by if by is NOTHING else self._composed(scope, node, f"{now} {step[1]} {_source(by)}")
 
     def flag(self, scope: Scope, node: Node, what: str) -> Term:
         """Return something that is true or false."""
@@ -106,10 +119,10 @@ class Reader:
         source = self.document.source
         if kind.datatype == "float":
             low, high = kind.range or (None, None)
-            if isinstance(node, Scalar) and isinstance(node.value, int | float) and not isinstance(node.value, bool):
+            if isinstance(node, Scalar) and _is_number(node, kind.unit):
                 found = read_value(source, component, name, kind, node)
                 return self._told(found) if isinstance(found, Diagnostic) else literal(found)
-            return self.number(scope, node, f"{name} of {component}", kind.unit, low, high)
+            return self.stepping(scope, node, f"{component}.{name}", f"{name} of {component}", kind.unit, low, high)
         if kind.datatype == "bool":
             return self.flag(scope, node, f"{name} of {component}")
         if isinstance(node, Scalar) and INSIDE.search(node.text):
@@ -123,7 +136,8 @@ class Reader:
         if kind.datatype != "float":
             return self.wrong(node, "type", f"{component}.{name} is no number"), Name("number")
         low, high = kind.range or (-math.inf, math.inf)
-        beyond = [v for v in term.literal if not low <= v <= high] if isinstance(term.literal, list) else []
+        known = [canonical(kind, v) for v in term.literal] if isinstance(term.literal, list) else []
+        beyond = [v for v in known if not low <= v <= high]
         if beyond:
             text = f"{beyond[0]:g} {kind.unit} is outside of the range of {component}.{name}"
             self.wrong(node, "range", text, f"{low:g} to {high:g} {kind.unit}")
@@ -436,6 +450,13 @@ class Reader:
 def is_name(text: str) -> bool:
     """Return whether a branch or a tag may be called so."""
     return re.fullmatch(r"(?!-)[A-Za-z0-9._/-]+(?<![./])", text) is not None and ".." not in text
+
+
+def _is_number(node: Scalar, unit: str) -> bool:
+    """Return whether a scalar is a number, or one with a unit, right or wrong, and no expression."""
+    if isinstance(node.value, int | float):
+        return not isinstance(node.value, bool)
+    return bool(_QUANTITY.match(node.text)) and _is_quantity(node.text, unit)
 
 
 def _is_quantity(text: str, unit: str) -> bool:

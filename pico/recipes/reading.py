@@ -1,10 +1,12 @@
-"""From the text of a recipe to its steps, or all that is wrong with it, before anything moves."""
+"""From the texts of recipes to their steps, or all that is wrong with them, before anything moves."""
 
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from pathlib import PurePath
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.recipe_names import by_present_names
@@ -25,6 +27,8 @@ from pico.recipes.unattended import read_unattended
 KEYS = ("apiVersion", "kind", "metadata", "parameters", "steps", "finally", "returns", "unattended", "figures",
         "notes")  # fmt: skip
 METADATA = ("name", "title", "description", "lab")
+FOLDER = "recipes"
+"""Where the recipes of a lab are, below its folder."""
 DEEPEST = 8
 """How deep recipes may call one another."""
 Fetch = Callable[[str, str], tuple[str, bytes]]
@@ -90,6 +94,30 @@ def _read(
         told=tuple(dict.fromkeys(d for r in called for d in r.told)),
     )  # fmt: skip
     return recipe, found
+
+
+def check_recipes(
+    setup: Setup, top: str, files: Mapping[str, bytes], revision: Callable[[str], bool]
+) -> tuple[tuple[str, ...], tuple[Diagnostic, ...]]:
+    """Return the names of the recipes of a lab and all that is wrong with them. `files`: the lab's, by path, those of
+    recipes below `top`/recipes; `revision`: whether there is one of a name."""
+    folder = str(PurePath(top, FOLDER))
+    paths = {os.path.normpath(path): data for path, data in files.items()}
+    own = sorted(path for path in paths if str(PurePath(path).parent) == folder)
+
+    def fetch(word: str, caller: str) -> tuple[str, bytes]:
+        for place in (PurePath(caller).parent, folder):
+            for name in (word, f"{word}.yaml"):
+                path = os.path.normpath(PurePath(place, name))
+                if path in paths:
+                    return path, paths[path]
+        raise PicoError(error("no-recipe", f"there is no recipe `{word[:60]}`", hint=f"a file in `{FOLDER}/`"))
+
+    found: list[Diagnostic] = []
+    for path in own:
+        source = Source(path, paths[path].decode("utf-8", "replace"))
+        found += read_recipe(source, setup, fetch, Able(revision=revision))[1]
+    return tuple(PurePath(path).stem for path in own), tuple(dict.fromkeys(found))
 
 
 def _about(reader: Reader, root: Map) -> dict[str, str]:

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.manifest.text.source import Source
-from pico.recipes.checking import FOLDER
 from pico.recipes.doing import Doing
 from pico.recipes.log import About, Log, logs
 from pico.recipes.parameters import given_values
 from pico.recipes.reader import Able
-from pico.recipes.reading import read_recipe
+from pico.recipes.reading import FOLDER, read_recipe
 from pico.recipes.recipe import Parameter, Recipe, paths_of
 from pico.recipes.running import Outcome, Watching, run_recipe
 from pico.recipes.taken_up import otherwise

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.model.observation import slot_at
@@ -20,6 +20,7 @@ class Part:
 
     >>> p1 = bench["p1"]
     >>> p1.angle = 10              # degrees, its unit; blocks until it is there
+    >>> p1.angle += 5              # from where it is
     >>> p1.move(x=300, yaw=5)      # mm, deg; what is not named stays
     >>> p1.move("storage/b1")
     """
@@ -111,16 +112,18 @@ class Part:
                 return Measurable(self._bench, f"{self.name}.{name}")
         raise AttributeError(self._unknown(name))
 
-    def __setattr__(self, name: str, value: Value) -> None:
+    def __setattr__(self, name: str, value: Value | Tunable) -> None:
         """Set a tunable, and return when it is there; raises PicoError."""
         kind = self._bench.setup.type_of(self.name)
+        if isinstance(value, Tunable) and value.address == f"{self.name}.{name}":
+            return  # `p1.angle += 5` has set it, and assigns the tunable to its own name
         if name not in kind.tunables:
             if name in ("pose", "slot"):
                 raise AttributeError(f"{self.name} goes to another {name} by `move`")
             if name in kind.measurables:
                 raise AttributeError(f"{name} of {self.name} is measured, and can't be set")
             raise AttributeError(self._unknown(name))
-        self._bench.set({f"{self.name}.{name}": value})
+        self._bench.set({f"{self.name}.{name}": cast("Value", value)})
 
     def __dir__(self) -> list[str]:
         kind = self._bench.setup.type_of(self.name)

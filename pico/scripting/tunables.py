@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Self
 
 from pico.bench.plans import written
 from pico.model.catalog import Tunable as Kind
 from pico.model.quantities import Value
-from pico.model.request import read_value
+from pico.model.setpoint import read_value
 from pico.model.trace.report import RunReport
 from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
@@ -23,6 +23,7 @@ class Tunable:
     >>> angle.set("0.2 rad").wait()
     >>> angle.value, angle.unit, angle.limits
     (11.459155902616466, 'deg', None)
+    >>> bench["p1"].angle += 5     # from where it is
     """
 
     def __init__(self, bench: Scripted, component: str, tunable: str) -> None:
@@ -64,6 +65,24 @@ class Tunable:
         """Return a value as it would be set: a number in its unit, or of a text with another one. Raises PicoError for
         what is out of range, of another unit or of another kind."""
         return read_value(self.component, self.tunable, self.kind, written(value))
+
+    def step(self, by: float | str) -> RunReport:
+        """Set it a step from its present value, a number in its unit or a text (`"2 mrad"`): steps add up, and the
+        opposite step leads back. Raises PicoError if it is out of range, unknown, or no number."""
+        text = written(by).strip()
+        text = f"-={text[1:]}" if text.startswith("-") else f"+={text.removeprefix('+')}"
+        value = read_value(self.component, self.tunable, self.kind, text, self.value)
+        return self._bench.set({self.address: value})
+
+    def __iadd__(self, by: float | str) -> Self:
+        """`bench["p1"].angle += 5`: `step(5)`; blocks until it is there."""
+        self.step(by)
+        return self
+
+    def __isub__(self, by: float) -> Self:
+        """`bench["p1"].angle -= 5`: `step(-5)`."""
+        self.step(-by)
+        return self
 
     def set(self, value: Value) -> Status[RunReport]:
         """Have it set, a number in its unit or a text (`"0.2 rad"`), and return at once with the status of that; raises

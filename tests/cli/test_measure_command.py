@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import cv2
@@ -60,6 +61,19 @@ def test_a_dark_frame_shuts_the_laser_and_opens_it_again(crossed: Path, pico: Pi
     in_vain = pico("do", "cam", "auto_range", "--yes")
     assert in_vain.code == 1 and "no light comes to cam: its picture stays dark up to 1000 ms" in in_vain.err
     assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == 10  # as it was
+
+
+def test_several_are_measured_in_one_run_and_darkness_has_its_reason(crossed: Path, pico: Pico) -> None:
+    answer = pico("measure", "laser.monitor", "p1.angle", "--json")
+    one, two = (json.loads(line) for line in answer.out.splitlines())
+    assert answer.code == 0 and one["run"] == two["run"] and (one["component"], two["value"]) == ("laser", 1)
+    assert pico("measure", "laser.monitor", "p1.angle", "--picture", "x.png").code == 1
+    pico("set", "laser", "shutter=closed", "--yes")
+    dark = pico("measure", "cam.power")
+    assert "no light reaches cam: laser.shutter is closed" in dark.err, dark
+    assert pico("set", "laser", "emission=false", "--yes").code == 0
+    (told,) = pico("measure", "cam.power", "--json").data["diagnostics"]
+    assert "laser is switched off" in told["summary"] and "laser.shutter is closed" in told["summary"]
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,30 @@ def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
     assert pico("get", "p1.angle", "--json").data["values"]["angle"]["value"] == pytest.approx(28.6479, abs=1e-3)
 
 
+def test_steps_count_from_where_it_is_and_back_and_angles_repeat(shel: Path, pico: Pico) -> None:
+    def angle(*words: str) -> float:
+        assert pico("set", *words, "-y").code == 0
+        return float(pico("get", "p1.angle", "--json").data["values"]["angle"]["value"])
+
+    assert [angle("p1", "angle=3"), angle("p1", "angle+=0.1"), angle("p1.angle+=0.2"), angle("p1.angle", "-=0.3")] == [
+        3, 3.1, 3.3, 3,
+    ]  # fmt: skip
+    assert [angle("p1.angle", "400"), angle("p1", "angle=-10"), angle("p1", "angle", "+=", "20 deg")] == [40, 350, 10]
+    assert pico("move", "p1", "x+=20", "yaw-=5", "-y").code == 0
+    assert "(130, 220, -5°)" in pico("get", "p1").out
+    assert pico("move", "p1", "x-=20", "turn=5", "-y").code == 0
+    assert "(110, 220, 0°)" in pico("get", "p1").out
+    assert pico("do", "cam", "set", "exposure+=2", "-y").code == 0
+
+
+def test_several_are_set_and_read_at_once(shel: Path, pico: Pico) -> None:
+    ly = pico("set", "ly_150", "stage_y=0.2", "stage_z=-0.1", "-y")
+    assert ly.code == 0 and "2 settings" in ly.out, ly
+    read = pico("get", "ly_150.stage_y", "ly_150.stage_z", "--json").out.splitlines()
+    assert [next(iter(json.loads(one)["values"].values()))["value"] for one in read] == [0.2, -0.1]
+    assert "p2.angle" in pico("get", "p1", "p2.angle").out
+
+
 def test_a_component_is_moved_turned_and_stowed(shel: Path, pico: Pico) -> None:
     assert pico("move", "p1", "x=350", "y=420", "-y").code == 0
     assert pico("move", "p1", "yaw=-30", "-y").code == 0
@@ -145,7 +169,10 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["set", "p1", "angel=3"], "did you mean `angle`?"),
         (["set", "p1", "angle=2 kg"], "mass"),
         (["set", "p1", "angle=9000"], "from 0 to 360 deg"),
-        (["set", "p1", "3"], "known: `angle`"),
+        (["set", "p1", "3"], "`pico set p1 angle=3`"),
+        (["set", "laser", "open"], "`pico set laser shutter=open`"),
+        (["set", "p1", "angle+=900"], "from 0 to 360 deg, not to 900"),
+        (["set", "laser", "shutter+=1"], "is no number"),
         (["get", "left"], "`pico get left.frame`"),
         (["set", "laser", "shutter=ajar"], "no choice `ajar`"),
         (["set", "laser", "emission=3"], "true or false"),
@@ -154,7 +181,7 @@ def test_nothing_is_moved_out_of_the_way_for_one_operation(shel: Path, pico: Pic
         (["move", "p1", "storage/z9"], "known: `storage/a1`, `storage/a2`"),
         (["move", "p1", "a4"], "did you mean `storage/a4`?"),
         (["move", "p1", "slot=a4"], "did you mean `storage/a4`?"),
-        (["move", "p1", "dx=5"], "p1 stands at x=110: `x=115`"),
+        (["move", "p1", "dx=5"], "`pico move p1 x+=5`"),
         (["move", "p1", "dyaw=5"], "`pico move p1 turn=5`"),
         (["set", "cam", "exposure=5", "gain=3"], "set of cam takes no `gain`"),
         (["move", "p1"], "where to move p1?"),

@@ -234,7 +234,7 @@ MISTAKES: dict[str, tuple[str, Any]] = {
     "an argument that there is not": ("unknown-key", {"call": "helper", "with": {"colour": 3}}),
     "a mass for an angle": ("unit", {"set": {"p1.angle": "2 kg"}}),
     "a name in another unit": ("unit", {"set": {"p1.angle": "p2.pose.x"}}),
-    "a number out of range": ("range", {"set": {"p1.angle": 400}}),
+    "a number out of range": ("range", {"set": {"p1.angle": 900}}),
     "a text for a number": ("expression", {"set": {"p1.angle": "'far'"}}),
     "a number for a condition": ("expression", {"if": "1 + 2", "then": [{"wait": 1}]}),
     "a list for a number": ("expression", {"wait": "[1, 2]"}),

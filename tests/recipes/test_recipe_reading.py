@@ -24,7 +24,7 @@ from pico.recipes.scope import function_names
         ("steps:\n- measure: cat.centroid\n", 2, "unknown-component", "no component `cat`"),
         ("steps:\n- apply: e9\n", 2, "unknown-revision", "no revision `e9`"),
         ("steps:\n- set: {p1.angle: 2 kg}\n", 2, "unit", "an angle, not a mass"),
-        ("steps:\n- set: {p1.angle: 361}\n", 2, "range", "out of range"),
+        ("steps:\n- set: {p1.angle: 721}\n", 2, "range", "out of range"),
         ("steps:\n- set: {p1.angel: 3}\n", 2, "unknown-tunable", "no tunable `angel`"),
         ("steps:\n- set: {p1.angle: tlit}\n", 2, "expression", "nothing is called `tlit`"),
         ("steps:\n- set: {laser.shutter: ajar}\n", 2, "choice", "shutter of laser"),
@@ -56,7 +56,7 @@ from pico.recipes.scope import function_names
         ("steps:\n- optimize: centred\n", 2, "goal", "no goal `centred`"),
         ("steps:\n- call: b\n", 2, "no-recipe", "no recipe `b`"),
         ("steps:\n- do: cam measure\n", 2, "step", "a step of its own"),
-        ("steps:\n- {scan: {p1.angle: [1, 400]}, read: cam.power}\n", 2, "range", "400 deg is outside"),
+        ("steps:\n- {scan: {p1.angle: [1, 900]}, read: cam.power}\n", 2, "range", "900 deg is outside"),
         ("steps:\n- scan: {p1.angle: [1, 2]}\n", 2, "missing-key", "what to read"),
         ("steps:\n- {scan: {laser.shutter: [1, 2]}, read: cam.power}\n", 2, "type", "is no number"),
         ("steps:\n- teleop: p2.angel\n", 2, "unknown-tunable", "to be steered"),
@@ -169,7 +169,7 @@ def test_the_page_about_recipes_lists_the_functions_that_there_are() -> None:
 
 
 def test_all_mistakes_are_told_at_once() -> None:
-    _, found = read("steps:\n- apply: e8\n- measure: cam.x\n- set: {p1.angle: 400}\n")
+    _, found = read("steps:\n- apply: e8\n- measure: cam.x\n- set: {p1.angle: 900}\n")
     assert len(found) == 3
 
 

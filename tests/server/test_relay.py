@@ -18,7 +18,7 @@ from pico.edge.protocol import Job
 from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Plan
-from pico.planning import Planner, set_one
+from pico.planning import Planner, set_values
 from pico.server.relay import dispatch
 from pico.server.store.commands import CommandRows
 from pico.server.store.tables import commands
@@ -52,7 +52,7 @@ def anna(coordinator: Served, edge: Connected) -> Iterator[Client]:
 def turning(edge: Connected, anna: Client, angle: float) -> Plan:
     """A plan that turns one polarizer, made of what is seen through the coordinator."""
     planner = Planner(edge.edge.setup, None, anna.ask("observe"))
-    return planner.plan(set_one(planner, "p1", "angle", angle))
+    return planner.plan(set_values(planner, "p1", {"angle": angle}))
 
 
 def turn(angle: float) -> Operation:

@@ -13,7 +13,7 @@ from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 from pico.recipes.terms import literal
 
-KIND = Kind("parts go to poses, slots or home", "move: {p2: {x: 520, y: 420, yaw: 30}, lx_100: home}", within=True)
+KIND = Kind("parts go to poses, slots or home", "move: {p2: {x: 520, y: 420, yaw: +=30}, lx_100: home}", within=True)
 _UNITS = {"x": "mm", "y": "mm", "yaw": "deg"}
 
 
@@ -31,7 +31,9 @@ def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -
         elif isinstance(node, Map):
             reader.keys(node, _UNITS, f"the pose of {name}")
             pairs = [(k, v) for k, (_, v) in node.entries.items() if k in _UNITS]
-            values[name] = {k: reader.number(scope, v, f"{k} of {name}", _UNITS[k]) for k, v in pairs}
+            values[name] = {
+                k: reader.stepping(scope, v, f"{name}.pose.{k}", f"{k} of {name}", _UNITS[k]) for k, v in pairs
+            }
         else:
             values[name] = _slot(reader, scope, name, node)
     return Given(values)

@@ -1,4 +1,5 @@
-"""`set: {p1.angle: 90 + tilt}`: tunables get values; several move side by side, as far as their motors can."""
+"""`set: {p1.angle: 90 + tilt, p2.angle: +=5}`: tunables get values, or steps from where they are; several move side by
+side, as far as their motors can."""
 
 from __future__ import annotations
 
@@ -12,7 +13,7 @@ from pico.recipes.reader import Reader
 from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
-KIND = Kind("tunables get values", "set: {p1.angle: 3, cam.exposure: 2 ms}", within=True)
+KIND = Kind("tunables get values", "set: {p1.angle: 3, p2.angle: +=5, cam.exposure: 2 ms}", within=True)
 
 
 def read(reader: Reader, scope: Scope, body: Node, beside: Mapping[str, Node]) -> Given:

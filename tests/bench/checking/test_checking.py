@@ -243,7 +243,7 @@ def test_there_is_no_such_fidelity(lab: Lab) -> None:
 
 def test_a_recipe_that_can_not_run_is_refused_with_file_and_line(lab: Lab) -> None:
     """With the revisions of the lab, and those that only `origin` has in a fresh clone."""
-    from pico.recipes.checking import check_recipes
+    from pico.recipes.reading import check_recipes
 
     folder = lab.root / "recipes"
     shutil.rmtree(folder)

@@ -20,7 +20,7 @@ from pico.model.request import place_after
 from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.motion.types import Blocked
-from pico.planning import PlanGoal, set_one
+from pico.planning import PlanGoal, set_values
 from pico.planning.checks.bolted import check_bolted
 from pico.planning.checks.contacts import Contact, ends_of, spot_of, starts_of
 from pico.planning.explaining.blocking import blocks_of
@@ -399,17 +399,17 @@ def test_a_value_that_there_is_not_or_that_nobody_reads_back_can_not_be_set() ->
     setup = bench(BLOCKS)
     seen: Observation = see(setup, {"a": (300, 300)}, {"a": {"angle": 0.0}})
     with pytest.raises(PicoError, match="a has no tunable `angel`") as caught:
-        one(set_one, setup, seen, "a", "angel", 1.0)
+        one(set_values, setup, seen, "a", {"angel": 1.0})
     assert "angle" in str(caught.value.diagnostics[0].hint) and caught.value.diagnostics[0].address == "a"
     with pytest.raises(PicoError, match=r"does not model a\.exposure"):
-        one(set_one, setup, seen, "a", "exposure", 1.0)
+        one(set_values, setup, seen, "a", {"exposure": 1.0})
     for presence, hint in (("missing", "pico drift"), ("held", "pico recover")):
         there = {**seen.components, "b": replace(seen.components["a"], presence=presence)}
         with pytest.raises(PicoError, match=f"b is {presence}") as caught:
-            one(set_one, setup, replace(seen, components=there), "b", "angle", 1.0)
+            one(set_values, setup, replace(seen, components=there), "b", {"angle": 1.0})
         assert hint in str(caught.value.diagnostics[0].hint)
     with pytest.raises(PicoError, match="b is missing"):
-        one(set_one, setup, seen, "b", "angle", 1.0)
+        one(set_values, setup, seen, "b", {"angle": 1.0})
 
 
 def test_a_person_takes_a_minute() -> None:
