@@ -38,12 +38,13 @@ schemas: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema
 	$(BIN)/python -m pico.recipes.schema
 
-$(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt
+$(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	@echo "Installing into $(VENV) (once, about a minute) ..."
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt setuptools wheel
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt --no-build-isolation -e '.[dev]'
+	@$(BIN)/python .ci/path.py
 	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -r tests/kernels/pictures.txt
 	@touch $(STAMP)
 

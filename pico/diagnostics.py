@@ -105,6 +105,14 @@ class PicoError(Exception):
         super().__init__("; ".join(f"{d.summary} ({d.hint})" if d.hint else d.summary for d in self.diagnostics))
 
 
+class RecordError(ValueError):
+    """Values that do not go together in a record; `hint` says what would be right."""
+
+    def __init__(self, summary: str, hint: str) -> None:
+        super().__init__(summary)
+        self.hint = hint
+
+
 _AS_NEAR = 0.01
 _SLOTS_ALIKE = 0.91
 """How alike a misspelt slot must be: `storage/z9` is none of its neighbours."""

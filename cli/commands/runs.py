@@ -54,6 +54,7 @@ def list_(
     ] = None,
     every: Annotated[bool, typer.Option("--all", help="Of all branches and tags.")] = False,
     others: Annotated[bool, typer.Option("--others", help="What others began at the bench as well.")] = False,
+    number: Annotated[int | None, typer.Option("-n", "--number", metavar="N", min=1, help="At most N runs.")] = None,
 ) -> None:
     """List runs, the newest first; `pico runs` alone does the same.
 
@@ -61,12 +62,13 @@ def list_(
     commit` takes them. With names after `--` only what changed these components or tunables.
 
     Examples:
+      pico runs list -n 3
       pico runs list main..e1 -- p2
     """
     session = Session.of(context)
     wrong: list[Diagnostic] = []
     history = _history(session)
-    found = history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong)
+    found = history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong)[:number]
     session.show(table, found, wrong, history.runs_of_others(wrong) if others else None)
     session.tell(wrong)
 

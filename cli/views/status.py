@@ -66,9 +66,14 @@ def _cells(row: StatusRow) -> list[str]:
     else:
         live = "=" if row.exact else f"= {row.near}"
     if row.requested and not row.note:
-        live = "unknown" if row.live is None else f"{place(row.live)}{unit}"
-        live += paint("dim", f"  ({place(row.desired)} is a request)")
+        live = "unknown" if row.live is None else f"{_light(row.live)}{unit}"
+        live += paint("dim", f" (requested: {_light(row.desired)}{unit})")
     return [row.address, committed, desired, live]
+
+
+def _light(value: Any) -> str:
+    """Return what lets light out as a person says it: emission is on or off."""
+    return ("on" if value else "off") if isinstance(value, bool) else place(value)
 
 
 def _summary(status: Status) -> list[str]:
@@ -79,7 +84,7 @@ def _summary(status: Status) -> list[str]:
     parts = [
         (edits, f"{count(edits, 'edit')} not committed (*)"),
         (pending, f"{count(pending, 'tunable')} of the bench to bring to the manifest (!)"),
-        (drifts, f"{count(drifts, 'tunable')} of the bench neither as committed nor as desired (!)"),
+        (drifts, f"{count(drifts, 'setting')} {'differs' if drifts == 1 else 'differ'} from both the commit and the manifest (!)"),
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]

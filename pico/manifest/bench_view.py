@@ -74,6 +74,11 @@ def type_names(document: Document) -> set[str]:
     return {name for _, part in parts if (name := _text(part, "type"))}
 
 
+def has_part(document: Document, name: str) -> bool:
+    """Return whether the inventory of a Lab document names a part, whatever else is wrong with it."""
+    return name in _map(document.root, "inventory").entries
+
+
 def _map(node: object, key: str) -> Map:
     value = node.get(key) if isinstance(node, Map) else None
     return value if isinstance(value, Map) else Map(0, False)

@@ -7,6 +7,7 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.model.arming import ArmingPolicy
+from pico.diagnostics import RecordError
 from pico.model.catalog import (
     Restore,
     SeatingKind,
@@ -175,8 +176,12 @@ class Part:
     def __post_init__(self) -> None:
         if self.dose_budget is not None and (not self.sample or self.dose_budget <= 0):
             raise ValueError("a `dose_budget` is above 0 mJ, and of a part with a `sample`")
-        if (self.home is None) == (self.pose is None):
-            raise ValueError("a part has exactly one of `home` (a slot) and `pose` (fixed)")
+        if self.home is None and self.pose is None:
+            hint = "add `home:` with a free slot; a part that is fixed to the table has a `pose:` instead"
+            raise RecordError("the part has neither `home` nor `pose`", hint)
+        if self.home is not None and self.pose is not None:
+            hint = "keep one: `home` is the slot of a part that moves, `pose` is for a part that is fixed to the table"
+            raise RecordError("the part has both `home` and `pose`", hint)
 
 
 @record

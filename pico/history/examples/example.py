@@ -67,9 +67,9 @@ def nested(folder: Path) -> tuple[Diagnostic, ...]:
     around = Repository.discover(above) if above else None
     if around is None or around.ignores(folder.resolve()):
         return ()
-    text = f"{folder} is a repository of its own inside {around.root}, which would keep a link to it and not its files"
-    hint = "to keep the lab in that one: `pico init DIR` without --example; or `rm -rf DIR/.git`, history and all"
-    return (warning("nested", text, hint=hint.replace("DIR", str(folder))),)
+    text = f"{folder} is its own repository inside {around.root}, which would keep a link to it and not its files"
+    hint = f"make it outside of that folder, or leave it out there: add `{folder.resolve().name}/` to .gitignore"
+    return (warning("nested", text, hint=hint),)
 
 
 def init_empty(folder: Path) -> Repository:

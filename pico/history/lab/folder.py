@@ -20,6 +20,7 @@ from pico.history.lab.notes import Note, note_path, notes, read_note, require_pa
 from pico.history.writing.in_progress import refuse_begun
 from pico.history.writing.lock import write_lock
 from pico.history.writing.recovery import anything_left
+from pico.manifest.bench_view import has_part
 from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS, RENAMED
 from pico.manifest.files import bench_files, read_folder, shown_path, states_alone
 from pico.manifest.load import Manifests, find_lab, load_files
@@ -149,7 +150,7 @@ class LabFolder:
         wrong = load_files(bench_files(files), root=shown).diagnostics
         read = load_files(files, found, setup=own)
         told = [d for d in wrong if d.code != "no-state" and d not in read.diagnostics]
-        hinted = [_to_adopt(d, self.described) for d in read.diagnostics]
+        hinted = [_to_adopt(d, self.described) for d in read.diagnostics if not _said_of_its_part(d, whole)]
         if whole.setup and hinted == list(read.diagnostics):  # else it is said where the bench lacks something
             told.append(_proposal(own, whole.setup, whole))
         return replace(read, diagnostics=(*told, *hinted))
@@ -406,6 +407,13 @@ def _proposal(own: Setup, described: Setup, read: Manifests) -> Diagnostic:
     hint = f"{hint} shows the difference, and lets the bench adopt it"
     source = read.source(edited[0].split()[0]) if edited else None
     return warning(BENCH_LAB, text, hint=hint, source=source)
+
+
+def _said_of_its_part(d: Diagnostic, whole: Manifests) -> bool:
+    """Return whether the bench lacks a component for another mistake: one in the inventory that the files describe."""
+    if d.code != "unknown-component" or whole.setup is not None:
+        return False
+    return any(has_part(document, d.address.partition(".")[0]) for document in whole.documents.get("Lab", ()))
 
 
 def _to_adopt(d: Diagnostic, described: Setup) -> Diagnostic:

@@ -83,7 +83,9 @@ def _homes(document: Document, lab: Lab) -> Iterator[Diagnostic]:
         elif part.home in owner:
             other = where(document, "inventory", owner[part.home], "home")
             detail = f"{owner[part.home]} has it at {other}"
-            hint = "give each part a home of its own"
+            taken = {p.home for p in lab.inventory.values()}
+            free = [f"`{slot}`" for slot in sorted(lab.slots) if slot not in taken]
+            hint = f"free slots: {', '.join(free[:4])}" if free else "give each part its own home: add a slot"
             yield error(
                 "slot", f"{name} and {owner[part.home]} have one home, {part.home}", detail=detail, hint=hint, source=at
             )
