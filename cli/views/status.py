@@ -81,10 +81,14 @@ def _summary(status: Status) -> list[str]:
     pending = sum(r.off and not r.drifted for r in status.rows)
     lost = sum(bool(r.note) for r in status.rows)
     edits = sum(r.edited for r in status.rows)
+    differ = "differs" if drifts == 1 else "differ"
     parts = [
         (edits, f"{count(edits, 'edit')} not committed (*)"),
         (pending, f"{count(pending, 'tunable')} of the bench to bring to the manifest (!)"),
-        (drifts, f"{count(drifts, 'setting')} {'differs' if drifts == 1 else 'differ'} from both the commit and the manifest (!)"),
+        (
+            drifts,
+            f"{count(drifts, 'setting')} {differ} from both the commit and the manifest (!)",
+        ),
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Literal
 
-from pico.model.arming import ArmingPolicy
 from pico.diagnostics import RecordError
+from pico.model.arming import ArmingPolicy
 from pico.model.catalog import (
     Restore,
     SeatingKind,

@@ -221,6 +221,36 @@ def test_init_makes_a_lab_that_validates_and_says_what_next(
     assert "no camera over the bench sees it" in pico("-C", "mybench", "do", "lens", "measure", "pose", "-y").err
 
 
+def test_a_folder_is_made_where_the_shell_says_also_inside_another_repository(
+    tmp_path: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    subprocess.run(["git", "init", "-q", str(tmp_path / "outer")], check=True)
+    (tmp_path / "outer" / "bench").mkdir()
+    monkeypatch.chdir(tmp_path / "outer" / "bench")
+    answer = pico("init", "--example", "minimal", "../other")
+    assert answer.code == 0 and (tmp_path / "outer" / "other" / "lab.yaml").is_file()
+    assert "add `other/` to .gitignore" in answer.err and "rm -rf" not in answer.err
+    (tmp_path / "outer" / ".gitignore").write_text("third/\n")
+    assert "nested" not in pico("init", "--example", "minimal", "../third").err
+    assert "nested" not in pico("init", "--example", "minimal", "../../outside").err
+
+
+def test_one_mistake_in_the_inventory_is_one_error_with_what_would_be_right(shel: Path, pico: Pico) -> None:
+    assert pico("set", "p1", "angle=3", "-y").code == 0  # the bench keeps its own Lab from now on
+    whole = (shel / "lab.yaml").read_text()
+    edit(shel / "state" / "table.yaml", "components:", "components:\n  l4: {pose: {x: 900, y: 100}}")
+    for part, code, hint in (
+        ("{type: plano_convex_100, home: storage/a1, marker: 77}", "slot", "free slots: `storage/"),
+        ("{type: plano_convex_100, marker: 77}", "value", "add `home:` with a free slot"),
+        ("{type: plano_convex_100, home: storage/a9, pose: {x: 1, y: 2}}", "value", "keep one: `home`"),
+    ):
+        (shel / "lab.yaml").write_text(whole.replace("inventory:", f"inventory:\n  l4: {part}"))
+        for words in (["plan"], ["validate"]):
+            answer = pico(*words)
+            assert answer.code == 1 and answer.err.count("error[") == 1, answer
+            assert f"error[{code}]" in answer.err and hint in answer.err, answer
+
+
 def test_fmt_check_names_the_file_and_fmt_writes_it(shel: Path, pico: Pico) -> None:
     edit(shel / "state" / "table.yaml", "    exposure: 10", "    exposure:   10   # ms")
     assert pico("fmt", "--check").code == 1

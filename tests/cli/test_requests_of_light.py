@@ -78,7 +78,12 @@ def test_it_is_shown_in_plan_status_and_diff(dark: Path, pico: Pico) -> None:
     assert change["requested"] and (change["before"], change["after"]) == ("closed", "open")
     row = next(r for r in pico("status", "--json").data["rows"] if r["tunable"] == "shutter")
     assert row["requested"] and not row["off"] and not row["drifted"]
-    assert "a request" in pico("status").out and "equal, but for light that is asked for" in pico("status").out
+    assert (
+        "closed (requested: open)" in pico("status").out
+        and "equal, but for light that is asked for" in pico("status").out
+    )
+    assert pico("set", "laser", "emission=false", "-y").code == 0
+    assert "off (requested: on)" in pico("status").out
     edit(dark / "state" / "table.yaml", "shutter: open", "shutter: closed")
     told = pico("diff")
     assert "laser.shutter" in told.out and "a request" in told.out

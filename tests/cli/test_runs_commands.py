@@ -306,3 +306,10 @@ def test_what_commits_carry_is_listed_and_shown_also_while_the_coordinator_is_aw
         assert listed.code == 0 and all(name in listed.out for name in carried) and "does not answer" in listed.err
         shown = pico("--bench", "shel/bench1", "runs", "show", carried[0])
         assert shown.code == 0 and f"run {carried[0]}" in shown.out
+
+
+def test_the_newest_runs_are_listed_as_many_as_are_asked_for(here: Path, pico: Pico) -> None:
+    every = [run["document"]["id"] for run in pico("runs", "list", "--json").data["runs"]]
+    assert len(every) == 3
+    assert [run["document"]["id"] for run in pico("runs", "list", "-n", "2", "--json").data["runs"]] == every[:2]
+    assert pico("runs", "list", "-n", "0").code == 1

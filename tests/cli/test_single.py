@@ -84,6 +84,20 @@ def test_what_is_wanted_is_written_into_the_manifest_as_the_least_change(shel: P
     assert pico("get", "p2.pose", "--json").data["values"]["pose"]["value"]["x"] != 540
 
 
+def test_edits_of_a_manifest_count_from_the_manifest_wherever_the_bench_stands(shel: Path, pico: Pico) -> None:
+    table = shel / "state/table.yaml"
+    before = table.read_text()
+    for words in (["move", "p2", "x=540"], ["move", "p2", "turn=5"], ["do", "p2", "move", "turn=5"],
+                  ["set", "p1", "angle+=3"], ["do", "p1", "set", "angle-=1"]):  # fmt: skip
+        assert pico(*words, "--manifest").code == 0
+    said = before.replace("x: 520\n      y: 420\n      yaw: 0", "x: 540\n      y: 420\n      yaw: 10")
+    assert table.read_text() == said.replace("angle: 90", "angle: 92", 1)
+    for words in (["move", "p2", "x-=20", "turn=-10"], ["set", "p1", "angle-=2"]):
+        assert pico(*words, "--manifest").code == 0
+    assert table.read_text() == before
+    assert "goes with move, stow and set" in pico("do", "p1", "home", "--manifest").err
+
+
 def test_a_manifest_says_what_was_asked_for_however_near_and_in_that_form(shel: Path, pico: Pico) -> None:
     table = shel / "state/table.yaml"
     before = table.read_text()

@@ -21,7 +21,7 @@ kind: Recipe
 metadata: {name: scan, lab: shel}
 parameters: {angles: {unit: deg, default: [10, 20]}}
 steps:
-  - set: {p1.angle: 5, hwp.angle: 20}
+  - set: {p1.angle: 5, hwp.angle: 20, p2.angle: +=20}
   - foreach: {angle: angles}
     steps:
       - set: {p1.angle: angle}

@@ -295,3 +295,20 @@ def test_what_was_broken_is_told_with_its_line(text: str, data: st.DataObject) -
 @pytest.mark.parametrize("text", ["[", "- a", "steps: *x\n", "steps: [" * 40, "\x00"])
 def test_what_is_no_yaml_is_told(text: str) -> None:
     assert read(text)[1]
+
+
+def test_steps_count_from_where_a_part_is_by_then() -> None:
+    text = "parameters: {tilt: 4}\nsteps:\n- set: {p1.angle: +=5, hwp.angle: '-= tilt / 2', p2.angle: -=90 mrad}\n"
+    recipe = right(text + "- move: {p2: {x: +=10, yaw: -= tilt}}\n")
+    here = {"p1.angle": 3.0, "hwp.angle": 7.0, "p2.angle": 90.0, "p2.pose.x": 500.0, "p2.pose.yaw": 30.0}
+    asks, _ = asked(recipe, lambda ask: {name: here[name] for name in ask.names})
+    done = {path: one for path, one in asks if isinstance(one, dict)}
+    assert done["1"]["p1.angle"] == 8 and done["1"]["hwp.angle"] == 5
+    assert abs(done["1"]["p2.angle"] - (90 - 5.1566)) < 1e-3
+    assert done["2"] == {"p2": {"x": 510.0, "yaw": 26.0}}
+
+
+def test_a_step_that_makes_no_sense_is_told_at_its_place() -> None:
+    for step, said in (("+=5 kg", "mass"), ("+= tlit", "tlit"), ("-=", "is empty")):
+        _, found = read(f"steps:\n- set: {{p1.angle: '{step}'}}\n")
+        assert found and found[0].startswith("2: ") and said in found[0], (step, found)

@@ -206,3 +206,26 @@ def test_where_a_scan_begins_at_the_value_that_there_is_its_first_point_has_it_t
             bench["p1"].angle = angle
             bench.measure("hwp.angle")
     assert [row.tunables["p1.angle"] for row in rows(bench.history.recorded_run(None)[0].trace)] == [10, 20]
+
+
+def test_steps_add_up_and_a_step_back_leads_back(bench: Bench) -> None:
+    p1 = bench["p1"]
+    p1.angle = 3
+    p1.angle += 0.1
+    p1.angle += 0.2
+    assert p1.angle.value == 3.3
+    p1.angle -= 0.3
+    angle = p1.angle
+    angle += 5
+    assert angle.value == p1.angle.value == 8
+    angle.step("-0.1 rad")
+    assert p1.angle.value == pytest.approx(8 - 5.7296, abs=1e-3)
+    p1.angle = 350
+    p1.angle += 20  # a polarizer that has turned once more
+    assert p1.angle.value == 10
+    p1.angle = -10
+    assert p1.angle.value == 350
+    with pytest.raises(pico.PicoError, match="goes from 0 to 360 deg, not to 1010"):
+        p1.angle.step(660)
+    with pytest.raises(pico.PicoError, match="is no number"):
+        bench["laser"].shutter.step(1)

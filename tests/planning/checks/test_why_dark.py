@@ -11,7 +11,7 @@ from pico.model.observation import Observation, ObservedValue
 from pico.model.request import as_stated
 from pico.planning.darkness import darkness
 
-SETUP, STATE = load_folder(Path(__file__).parents[2] / "labs" / "mach_zehnder").require()
+SETUP, STATE = load_folder(Path(__file__).parents[3] / "labs" / "mach_zehnder").require()
 SEEN = as_stated(SETUP, STATE)
 DETECTOR = next(n for n in STATE.components if SETUP.type_of(n).optics.element == "detector")
 LASER = next(n for n in SETUP.lab.inventory if SETUP.type_of(n).optics.element == "source")
