@@ -21,8 +21,9 @@ from .at_once.complete import SHARED, plain
 from .at_once.help import help_text
 from .commands import files, stem
 from .errors import explain
+from .hints import flags_of
 from .session import Session, standing
-from .terminal.output import unsaid, write
+from .terminal.output import flags, unsaid, write
 
 EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate, --bench NAME: `pico --help`."
 
@@ -155,11 +156,15 @@ def run(words: list[str]) -> int:
     stepping = named[:2] == ["bisect", "step"] or named[:1] == ["bisect-step"]
     words = [*named[1:], "--help"] if named[:1] == ["help"] else words
     unsaid.clear()
+    flags.clear()
     standing.clear()
     try:
         group = build()
         with group.make_context("pico", list(words)) as context:
-            code = group.invoke(context)
+            try:
+                code = group.invoke(context)
+            finally:  # also of a command that was not understood, and made no session
+                flags[:] = flags or flags_of(context.meta.get("pico.session", {}))
     except typer.Exit as exc:
         code = exc.exit_code
     except (Exception, KeyboardInterrupt) as exc:

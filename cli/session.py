@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
@@ -16,7 +16,8 @@ from pico.diagnostics import PicoError, error
 from pico.places.splitting import take_report
 
 from .garbage import loaded
-from .terminal.output import write
+from .hints import OPTIONS, flags_of, with_flags_in
+from .terminal.output import flags, write
 from .terminal.waiting import waiting
 from .views.style import inert_json, paint
 
@@ -54,18 +55,27 @@ class Session:
     """The bench that `--bench` names; None if it was not given."""
     backend: str | None = None
     """The bench that `--backend` and `--emulate` name; None if neither was given."""
+    said: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    """The options that say which bench is meant, as far as they were given; see `hints.OPTIONS`."""
     told: list[Diagnostic] = field(default_factory=list, compare=False)
 
     @classmethod
     def of(cls, context: typer.Context) -> Session:
         """Return the session of a command, from the options given before and after its name."""
         given = dict(context.meta.get("pico.session", {}))
+        said = {name: value for name, value in given.items() if name in OPTIONS}
         if given.pop("emulate", False):
             if given.get("backend", HARDWARE) not in (HARDWARE, EMULATED):
                 text = f"`--backend {given['backend']}` has no devices that could be emulated"
                 raise PicoError(error("usage", text, hint="`--backend hardware --emulate`"))
             given["backend"] = EMULATED
-        return cls(context=context, **given)
+        found = cls(context=context, said=said, **given)
+        flags[:] = found.flags()
+        return found
+
+    def flags(self) -> tuple[str, ...]:
+        """Return the flags with which another command reaches the same bench, each as it is typed."""
+        return flags_of(self.said)
 
     def place(self, root: Path) -> Place:
         """Return the bench that is meant for the lab in `root`, see `pico.edge.network.meant`. Raises PicoError."""
@@ -85,16 +95,6 @@ class Session:
         text = f"{place.said} is not a bench of this machine"
         hint = "`--bench sim`, `--bench emulated` or `--bench hardware` names one of this lab"
         raise PicoError(error("remote", text, hint=hint))
-
-    def flags(self, place: Place) -> tuple[str, ...]:
-        """Return the options with which a command typed after this one reaches a bench; none if it does without."""
-        from pico.edge.network.meant import meant, word_for
-
-        try:
-            usual = meant(place.root)
-        except PicoError:  # what this worktree chose is gone
-            usual = None
-        return () if usual == place else ("--bench", word_for(place))
 
     def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
         """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""
@@ -165,7 +165,8 @@ class Session:
 
     def document(self, data: Any) -> None:
         """Print one JSON document, in one line."""
-        write(sys.stdout, inert_json(json.dumps(data, ensure_ascii=False, default=str)))
+        found = with_flags_in(data, flags)
+        write(sys.stdout, inert_json(json.dumps(found, ensure_ascii=False, default=str)), data=True)
 
     def say(self, text: str) -> bool:
         """Print text for people; nothing with `--json`. Return whether somebody may still read."""

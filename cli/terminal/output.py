@@ -9,6 +9,7 @@ import stat
 import sys
 from typing import TextIO
 
+from ..hints import with_flags
 from ..views.style import folded, inert, plain
 
 GONE = (errno.EPIPE, errno.EIO)
@@ -17,6 +18,9 @@ GONE = (errno.EPIPE, errno.EIO)
 unsaid: list[OSError] = []
 """Why standard output took no more, where readers were not the matter but a disk: the command ends with an error."""
 
+flags: list[str] = []
+"""The flags that reach the bench of this command, for the commands that it prints; see `hints`."""
+
 
 def colored(stream: TextIO) -> bool:
     """Return whether color helps: on a terminal or in its pager, unless NO_COLOR (no-color.org) or TERM=dumb say no."""
@@ -24,12 +28,14 @@ def colored(stream: TextIO) -> bool:
     return shown and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
 
 
-def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False) -> bool:
+def write(stream: TextIO, text: str, end: str = "\n", *, over: bool = False, data: bool = False) -> bool:
     """Write; where nobody reads any more (`pico log | head`), go on in silence, for the work must end properly.
 
-    What would steer a terminal is written out (`views.style.inert`), and no word is broken at its edge. `over`: over
-    the line where the cursor is. Return whether somebody may still read.
+    Commands in it get the flags that reach this bench, unless it is `data`. What would steer a terminal is written out
+    (`views.style.inert`), and no word is broken at its edge. `over`: over the line where the cursor is. Return whether
+    somebody may still read.
     """
+    text = text if data else with_flags(text, flags)
     safe = inert(text if colored(stream) else plain(text))
     if stream.isatty() and not over:
         safe = folded(safe, shutil.get_terminal_size().columns)

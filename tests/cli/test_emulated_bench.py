@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import json
 import os
+import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -72,6 +74,25 @@ def test_what_was_applied_is_there_and_nothing_is_left_to_do(wired: Path, pico: 
     assert again.code == 0, again.out
     assert not (wired / ".pico/benches/sim").exists(), "the simulator's table is another"
     assert "  emulated  " in pico("runs").out
+
+
+def literally(pico: Pico, said: str, verb: str) -> None:
+    """Run the command with a verb that a text names between backticks, as it stands there."""
+    (command,) = [c for c in re.findall(r"`pico ([^`]*)`", said) if verb in c.split()]
+    words = [word for word in shlex.split(command) if word != "RUN"]
+    answer = pico(*words, *(() if verb == "capture" else ("--auto-approve",)))
+    assert answer.code == 0, answer.out + answer.err
+
+
+def test_the_commands_that_it_prints_reach_the_same_bench(wired: Path, pico: Pico) -> None:
+    """Each is run as it is printed: the emulated bench moves, and the simulator's is never made."""
+    literally(pico, " ".join(pico(*EMULATED, "plan", "C2").out.split()), "apply")
+    assert stands(wired, "p1").distance(Pose(290, 420, 0)) < 0.1
+    done = pico(*EMULATED, "set", "p1", "angle=5", "--auto-approve")
+    assert world(wired)["components"]["p1"]["values"]["angle"]["value"] == pytest.approx(5, abs=0.1)
+    literally(pico, " ".join(done.out.split()), "capture")
+    assert re.search(r"p1:(\n    .*)*\n    angle: (5|4\.9\d*|5\.0\d*)\n", (wired / "state" / "table.yaml").read_text())
+    assert not (wired / ".pico" / "sim").exists(), "a command reached the simulator"
 
 
 def test_a_restoration_is_the_one_that_the_simulator_makes(wired: Path, pico: Pico) -> None:

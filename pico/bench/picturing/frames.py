@@ -48,8 +48,8 @@ def _doubts(setup: Setup, run: RecordedRun) -> tuple[Diagnostic, ...]:
     now = setup.digest()
     if run.document.lab.digest == now:
         return ()
-    text = "the bench was another one then: it is drawn as it is now"
-    return (warning("another-lab", text, hint="`pico bench show` tells what it is"),)
+    text = "the bench was described differently then: it is drawn as it is now"
+    return (warning("another-lab", text, hint="`pico log` shows what changed since"),)
 
 
 def _document(
