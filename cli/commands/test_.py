@@ -76,7 +76,7 @@ def _tried(
 ) -> tuple[str, tuple[Rehearsed, ...]]:  # fmt: skip
     """Return the name of a lab, and how its recipes went."""
     from pico.bench.bench import Bench
-    from pico.edge.network.remotes import LOCAL
+    from pico.edge.network.meant import LOCAL
     from pico.recipes.recipes import Recipes
     from pico.recipes.rehearsing import rehearse_all
 
