@@ -13,7 +13,7 @@ import typer
 
 from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR, opener
 from pico.diagnostics import PicoError, error
-from pico.places.splitting import take_report
+from pico.places.layout import take_report
 
 from .garbage import loaded
 from .hints import OPTIONS, flags_of, with_flags_in

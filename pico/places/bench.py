@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pico.places.lab import BENCHES, FOLDER, lab_place, own_names, refuse_links
+from pico.places.layout import OLD
 from pico.places.record import attached
-from pico.places.splitting import split_if_old
 
 _held: dict[BenchPlace, Path] = {}
 
@@ -59,7 +59,7 @@ class BenchPlace:
 def local_benches(root: Path) -> tuple[BenchPlace, ...]:
     """Return the benches of this machine that this worktree of the lab in `root` keeps; raises PicoError."""
     try:
-        split_if_old(root, own_names(root))
+        _split_if_old(root, own_names(root))
         folders = sorted((root / FOLDER / BENCHES).iterdir())
     except OSError:
         return ()  # below the folder of a coordinator are the labs that it has, and no files
@@ -73,9 +73,16 @@ def folder_in(root: Path, name: str) -> Path:
     for all benches is split first. Raises PicoError for a symbolic link, and if that can't be split."""
     names, benches = own_names(root), root / FOLDER / BENCHES
     refuse_links(benches)
-    split_if_old(root, names)
+    _split_if_old(root, names)
     refuse_links(benches / name)
     return benches / name
+
+
+def _split_if_old(root: Path, names: frozenset[str]) -> None:
+    if names & OLD:
+        from pico.places.splitting import split_layout
+
+        split_layout(root)
 
 
 def hold(bench: BenchPlace) -> None:

@@ -9,12 +9,14 @@ from collections.abc import Collection, Mapping
 from contextlib import closing
 from pathlib import Path
 
+Damaged = sqlite3.Error
+"""What a journal raises that can't be read."""
 _BY_EVIDENCE = {"kinematic": "sim", "physics": "sim", "emulated": "emulated", "hardware": "hardware"}
 
 
 def benches_of_runs(path: Path) -> dict[str, str | None]:
     """Return the bench of each run in a journal, in the order in which they began; None if that is unclear: the run
-    says nothing of it, or was taken up again on another bench. Raises sqlite3.Error for a damaged journal."""
+    says nothing of it, or was taken up again on another bench. Raises Damaged."""
     with closing(sqlite3.connect(path)) as journal:
         columns = {row[1] for row in journal.execute("PRAGMA table_info(runs)")}
         wanted = ", ".join(name if name in columns else "NULL" for name in ("document", "about"))
@@ -43,7 +45,7 @@ def _said(start: Mapping[str, object]) -> str | None:
 
 def copy_runs(path: Path, to: Path, runs: Collection[str]) -> None:
     """Write a journal that has only these runs of the one at `path`; it is on the disk when this returns. Raises
-    sqlite3.Error, OSError."""
+    Damaged, OSError."""
     with closing(sqlite3.connect(path)) as whole, closing(sqlite3.connect(to)) as part:
         whole.backup(part)
         part.execute("PRAGMA journal_mode=DELETE")

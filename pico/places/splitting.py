@@ -11,60 +11,21 @@ import fcntl
 import json
 import os
 import shutil
-import socket
-import sqlite3
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
-from dataclasses import dataclass, field
+from contextlib import contextmanager
 from pathlib import Path
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
-from pico.disk import unwritable, write_whole
+from pico.diagnostics import ExitCode, PicoError, error
+from pico.disk import unwritable
 from pico.places.lab import BENCHES, FOLDER, refuse_links
-from pico.places.old_journal import benches_of_runs, copy_runs
+from pico.places.layout import EARLIER, GONE, JOURNAL, OLD, UNSORTED, Layout, read_layout, write_layout
 from pico.places.old_records import lift_records
-
-JOURNAL = "journal.sqlite"
-LAYOUT = "layout.json"
-SCHEMA = "pico.benches-layout/v1"
-UNSORTED = "unsorted"
-EARLIER = "earlier"
-_DEVICES = ("sim", "emulated", "hardware")
-_ALL = ("lab.json", "lock", "dose.json")
-"""Files that each bench gets: its Lab, its last token, and how much light samples had, which must not be forgotten."""
-_OF_RUNS = ("run", "points", "recipes")
-"""What names a run, and goes with that."""
-_OF_SIM = ("seen.json", "hands.json")
-_OF_LAST = ("enrolment.json", "gate.sqlite", "unattended.json")
-_GONE = ("edge.json", "stop.json", "unattended.lock", "holder.json", "incoming")
-"""What counts only while a process lives."""
-OLD = frozenset({
-    *_ALL, *_OF_RUNS, *_OF_SIM, *_OF_LAST, *_DEVICES, JOURNAL, "armed", "mornings.json", "edge.json", "stop.json",
-})  # fmt: skip
-"""Names in `.pico` that tell of the old layout."""
+from pico.places.sorting import Sorting
 
 
-@dataclass(frozen=True)
-class Layout:
-    """What was done with the old layout."""
-
-    benches: tuple[str, ...] = ()
-    """The benches that it was split into."""
-    clearing: bool = False
-    """Whether what is left of it has still to be cleared."""
-    unclear: tuple[str, ...] = ()
-    """The runs whose bench is unclear; they are in `UNSORTED`."""
-    earlier: tuple[str, ...] = ()
-    """Folders below `.pico` with what an earlier PICO wrote after the split."""
-    told: bool = True
-    """Whether a person was told of these."""
-
-
-def split_if_old(root: Path, names: frozenset[str]) -> None:
-    """Split the old layout of the lab in `root`, whose `.pico` has entries of these names, if it is one. Raises
-    PicoError if it can't be written, if somebody moves a bench, and for a journal that can't be read."""
-    if not names & OLD:
-        return
+def split_layout(root: Path) -> None:
+    """Split the old layout of the lab in `root`, or clear what a killed split left of it. Raises PicoError if it can't
+    be written, if somebody moves a bench, and for a journal that can't be read."""
     folder = root / FOLDER
     with _alone(folder):
         layout = read_layout(root)
@@ -77,39 +38,7 @@ def split_if_old(root: Path, names: frozenset[str]) -> None:
             layout = _set_aside(folder, layout)
         lift_records(root, layout.benches)
         _clear(folder)
-        _write_layout(folder, layout, clearing=False)
-
-
-def read_layout(root: Path) -> Layout | None:
-    """Return what was done with the old layout of the lab in `root`; None if nothing was."""
-    try:
-        found = json.loads((root / FOLDER / BENCHES / LAYOUT).read_text(encoding="utf-8"))
-        return Layout(
-            tuple(found["benches"]), bool(found["clearing"]), tuple(found["unclear"]), tuple(found["earlier"]),
-            bool(found["told"]),
-        )  # fmt: skip
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-
-
-def take_report(root: Path) -> tuple[Diagnostic, ...]:
-    """Return, once, what a split could not sort."""
-    layout = read_layout(root)
-    if layout is None or layout.told:
-        return ()
-    folder = root / FOLDER
-    with suppress(PicoError):  # on a read-only disk it is told again
-        _write_layout(folder, layout, clearing=layout.clearing, told=True)
-    found = []
-    if layout.unclear:
-        text = f"it is unclear on which bench these runs were: {', '.join(layout.unclear)}"
-        hint = f"they are kept in {folder / UNSORTED / JOURNAL}, and no bench of this lab counts them"
-        found.append(warning("unsorted-runs", text, hint=hint))
-    for name in layout.earlier:
-        text = f"an earlier PICO moved benches of this lab since each has a folder of its own: see {folder / name}"
-        hint = "look at what stands on the table (`pico status`) before you move it, and update that PICO"
-        found.append(warning("earlier-layout", text, hint=hint))
-    return tuple(found)
+        write_layout(folder, layout, clearing=False)
 
 
 @contextmanager
@@ -132,17 +61,14 @@ def _alone(folder: Path) -> Iterator[None]:
         what = f"{folder} is laid out as by an earlier PICO, and can't be split into a folder for each bench"
         found = unwritable(folder, exc if isinstance(exc, OSError) else OSError(str(exc)), what=what, code="old-layout")
         raise PicoError(found) from exc
-    except sqlite3.Error as exc:
-        path = folder / JOURNAL
-        text = f"the journal {path} can't be read, so its runs can't be sorted by bench: {exc}"
-        hint = f"`mv {path} {path}.broken` goes on without the runs in it that no commit has"
-        raise PicoError(error("journal", text, hint=hint)) from exc
     finally:
         for lock in locks:
             os.close(lock)
 
 
 def _served(folder: Path) -> bool:
+    import socket
+
     try:
         path = json.loads((folder / "edge.json").read_text(encoding="utf-8"))["socket"]
         with socket.socket(socket.AF_UNIX) as link:
@@ -154,11 +80,23 @@ def _served(folder: Path) -> bool:
 
 def _split(folder: Path) -> Layout:
     """Build a folder for each bench, move them to their places, and let them count."""
-    building = folder / "splitting"
+    from pico.places.old_journal import Damaged, benches_of_runs
+
+    building, path = folder / "splitting", folder / JOURNAL
     shutil.rmtree(building, ignore_errors=True)
-    runs = benches_of_runs(folder / JOURNAL) if (folder / JOURNAL).exists() else {}
+    try:
+        return _built(folder, building, benches_of_runs(path) if path.exists() else {})
+    except Damaged as exc:
+        text = f"the journal {path} can't be read, so its runs can't be sorted by bench: {exc}"
+        hint = f"`mv {path} {path}.broken` goes on without the runs in it that no commit has"
+        raise PicoError(error("journal", text, hint=hint)) from exc
+
+
+def _built(folder: Path, building: Path, runs: Mapping[str, str | None]) -> Layout:
+    from pico.places.old_journal import copy_runs
+
     unclear = tuple(run for run, bench in runs.items() if bench is None)
-    sorting = _Sorting(folder, building, runs)
+    sorting = Sorting(folder, building, runs)
     for bench in sorting.benches:
         (building / bench).mkdir(parents=True)
         own = [run for run, of in runs.items() if of == bench]
@@ -178,87 +116,13 @@ def _split(folder: Path) -> Layout:
         (building / name).rename(to)
     building.rmdir()
     layout = Layout(sorting.benches, clearing=True, unclear=unclear, told=not unclear)
-    _write_layout(folder, layout, clearing=True)
+    write_layout(folder, layout, clearing=True)
     return layout
-
-
-@dataclass
-class _Sorting:
-    """Where each entry of the old layout belongs."""
-
-    folder: Path
-    building: Path
-    runs: Mapping[str, str | None]
-    benches: tuple[str, ...] = field(init=False)
-    last: str = field(init=False)
-
-    def __post_init__(self) -> None:
-        worlds = [name for name in _DEVICES if (self.folder / name).is_dir()]
-        known = [bench for bench in self.runs.values() if bench is not None]
-        self.last = known[-1] if known else worlds[0] if len(worlds) == 1 else _DEVICES[0]
-        self.benches = tuple(dict.fromkeys([*known, *worlds, self.last]))
-
-    def of_plug_ins(self) -> list[Path]:
-        """Return the folders of devices of plug-ins that had runs; they stay there, too."""
-        return [self.folder / name for name in self.benches if name not in _DEVICES and (self.folder / name).is_dir()]
-
-    def copy(self, path: Path) -> None:
-        """Copy one entry to the bench, or the benches, that it belongs to. Raises OSError."""
-        name = path.name
-        if name in self.benches:
-            _copied(path, self.building / name, inside=True)
-        elif name in _ALL:
-            for bench in self.benches:
-                _copied(path, self.building / bench / name)
-        elif name in ("points", "recipes"):
-            for one in sorted(path.iterdir()):
-                _copied(one, self._of(one) / name / one.name)
-        elif name == "armed":
-            for one in sorted(path.glob("*.json")):
-                _copied(one, self.building / self._armed(one) / name / one.name)
-        elif name == "run":
-            _copied(path, self._of(path) / name)
-        elif name == "mornings.json":
-            self._mornings(path)
-        elif name in _OF_SIM:
-            self._into(_DEVICES[0], path)
-        elif name not in (JOURNAL, f"{JOURNAL}-wal", f"{JOURNAL}-shm", *_GONE):
-            self._into(self.last, path)
-
-    def _into(self, bench: str, path: Path) -> None:
-        _copied(path, self.building / (bench if bench in self.benches else self.last) / path.name)
-
-    def _of(self, path: Path) -> Path:
-        """Return the folder of the bench whose run a file names, by its own name or in it."""
-        beside = path.with_suffix(".jsonl") if path.suffix in (".out", ".pid") else path
-        text = f"{path.name}\n{beside.read_text(encoding='utf-8', errors='replace') if beside.is_file() else ''}"
-        named = [bench or UNSORTED for run, bench in self.runs.items() if run in text]
-        return self.building / (named[-1] if named else self.last)
-
-    def _armed(self, path: Path) -> str:
-        try:
-            bench = str(json.loads(path.read_text(encoding="utf-8"))["backend"])
-        except (OSError, ValueError, KeyError, TypeError):
-            bench = self.last
-        return bench if bench in self.benches else self.last
-
-    def _mornings(self, path: Path) -> None:
-        """Give each bench the references that its own runs are."""
-        try:
-            document = json.loads(path.read_text(encoding="utf-8"))
-            of = [self.runs.get(one["run"]) or self.last for one in document["references"]]
-        except (OSError, ValueError, KeyError, TypeError):
-            self._into(self.last, path)
-            return
-        for bench in dict.fromkeys(of):
-            own = [one for one, at in zip(document["references"], of, strict=True) if at == bench]
-            data = json.dumps({**document, "references": own}, sort_keys=True).encode()
-            write_whole(self.building / bench / path.name, data)
 
 
 def _entries(folder: Path) -> list[Path]:
     """Return what the old layout keeps, without what stays in the checkout."""
-    known = {*OLD, *_GONE, f"{JOURNAL}-wal", f"{JOURNAL}-shm", "gate.sqlite-wal", "gate.sqlite-shm"}
+    known = {*OLD, *GONE, f"{JOURNAL}-wal", f"{JOURNAL}-shm", "gate.sqlite-wal", "gate.sqlite-shm"}
     return sorted(path for path in folder.iterdir() if path.name in known and _counts(path))
 
 
@@ -284,14 +148,6 @@ def _clear(folder: Path) -> None:
             path.unlink(missing_ok=True)
 
 
-def _copied(path: Path, to: Path, *, inside: bool = False) -> None:
-    to.parent.mkdir(parents=True, exist_ok=True)
-    if path.is_dir():
-        shutil.copytree(path, to, dirs_exist_ok=inside)
-    else:
-        shutil.copy2(path, to)
-
-
 def _synced(folder: Path) -> None:
     """See that all files below a folder, and their names, are on the disk. Raises OSError."""
     for path in (*folder.rglob("*"), folder):
@@ -300,11 +156,3 @@ def _synced(folder: Path) -> None:
             os.fsync(file)
         finally:
             os.close(file)
-
-
-def _write_layout(folder: Path, layout: Layout, *, clearing: bool, told: bool | None = None) -> None:
-    document = {
-        "schema": SCHEMA, "benches": layout.benches, "clearing": clearing, "unclear": layout.unclear,
-        "earlier": layout.earlier, "told": layout.told if told is None else told,
-    }  # fmt: skip
-    write_whole(folder / BENCHES / LAYOUT, (json.dumps(document, indent=1) + "\n").encode(), folders=True)

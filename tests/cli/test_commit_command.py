@@ -96,7 +96,7 @@ def test_ones_own_words_stay_as_they_are_and_trailers_join(built: Path, pico: Pi
     head, _, block = body().rstrip().rpartition("\n\n")
     assert head == "why: because\n\n# no comment"
     keys = [line.partition(":")[0] for line in block.splitlines()]
-    assert keys == ["Closes", "Pico-State", "Pico-Evidence", "Pico-Lab", "Pico-Hand", "Pico-Meta"]
+    assert keys == ["Closes", "Pico-State", "Pico-Evidence", "Pico-Lab", "Pico-Bench", "Pico-Hand", "Pico-Meta"]
     assert "t: 21.3 degC" in pico("show").out
     assert pico("log", "-n", "1", "--json").data["commits"][0]["meta"] == {"t": "21.3 degC"}
 
@@ -193,7 +193,7 @@ def test_a_commit_carries_its_runs_once_and_leaves_the_rest_alone(built: Path, p
     git("add", "staged.txt")
     pico("set", "p1", "angle=3", "-y")
     answer = pico("commit", "-m", "three degrees")
-    assert "With 1 run (kinematic)" in answer.out
+    assert "With 1 run (kinematic, sim)" in answer.out
     (run,) = trailer("Pico-Run")
     files = git("show", "--name-only", "--format=").split()
     assert [f for f in files if not f.startswith("runs/")] == ["state/table.yaml"]

@@ -312,7 +312,7 @@ def test_gc_removes_nothing_while_a_bench_can_not_say_what_its_runs_need(lab: Pa
     (lab / "lab.yaml").write_text("{")
     answer = pico("data", "gc", "--grace", "0d", "--auto-approve")
     assert answer.code == 1
-    assert f"nobody can tell what the runs of the bench in {lab} need still" in answer.err
+    assert f"nobody can tell what the runs of the benches in {lab} need still" in answer.err
     assert stored(lab) == {orphan}
     (lab / "lab.yaml").write_text(text)
 

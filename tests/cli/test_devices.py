@@ -101,8 +101,8 @@ def test_a_plug_in_brings_a_device(tray: None, shel: Path, pico: Pico) -> None:
     assert answer.code == 0, answer
     assert pico("plan", "e1", "--detailed-exitcode", "--backend", "tray").code == 0
     assert simulated(pico) == before  # the simulated table is another one
-    (run,) = pico("runs", "list", "--all", "--json").data["runs"]
-    assert run["document"]["evidence"] == "emulated"
+    (run,) = pico("runs", "list", "--all", "--json", "--backend", "tray").data["runs"]
+    assert (run["document"]["evidence"], run["document"]["bench"]) == ("emulated", "tray")
 
 
 def test_a_device_that_there_is_not_is_told_with_those_that_there_are(shel: Path, pico: Pico) -> None:

@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from bench_at import bench_at
 from commanding import Pico
 from pico_cli.standing import Standing
 
@@ -49,14 +50,14 @@ def test_an_answer_that_a_full_disk_does_not_take_is_an_error(shel: Path, words:
 
 def test_where_a_disk_refuses_it_is_told_what_was_not_done_and_nothing_untrue(shel: Path, pico: Pico) -> None:
     full = [unwritable(shel, OSError(errno.ENOSPC, ""))]
-    before = Standing(shel)
+    before = Standing(bench_at(shel))
     assert before.told([error("usage", "no disk is wrong")])[1:] == []
     said = before.told(full)[1].summary
     assert said == "nothing moved; the manifests are as they were; no commit was made"
     assert pico("sim", "nudge", "p2", "--dx", "5").code == pico("capture").code == 0
     said = before.told(full)[1].summary
     assert said == "`pico status` shows what moved; manifests changed: `git diff`; no commit was made"
-    captured = Standing(shel)
+    captured = Standing(bench_at(shel))
     assert pico("commit", "-m", "bumped").code == 0
     said = captured.told(full)[1].summary
     assert said == "nothing moved; the manifests are as they were; HEAD moved: `git log -1`"

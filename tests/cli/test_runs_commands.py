@@ -63,7 +63,7 @@ def test_runs_are_listed_newest_first_a_line_each(here: Path, pico: Pico) -> Non
     assert answer.code == 0
     head, own, second, first, _, last = answer.out.splitlines()
     assert head.split()[:2] == ["run", "when"]
-    assert own.split()[3:7] == ["set", "p1.angle", "kinematic", "done"]
+    assert own.split()[3:8] == ["set", "p1.angle", "sim", "kinematic", "done"]
     assert own.endswith("not yet")
     assert "apply the manifest" in first
     assert first.rstrip().endswith(runs(pico)[2]["commit"][:7])
@@ -198,7 +198,7 @@ def test_verify_says_what_proves_the_commit(here: Path, pico: Pico) -> None:
     assert f"was verified: the run {first} led to exactly this state; the bench has left it since." in " ".join(
         answer.out.split()
     )
-    assert "Simulated (kinematic): never hardware." in answer.out
+    assert "Simulated (kinematic, sim): never hardware." in answer.out
     assert answer.code == 1  # the bench is at 9 by now
     assert "is planned: no run in this history led to it." in pico("verify", "E2-3").out
     data = pico("verify", "--json").data["standing"]

@@ -17,7 +17,7 @@ from bench_at import bench_at
 from commanding import Pico
 
 from pico.diagnostics import ExitCode, PicoError
-from pico.places import old_records, splitting
+from pico.places import layout, old_journal, old_records, sorting
 from pico.places.bench import local_benches
 from pico.runs.journal import Journal
 
@@ -86,9 +86,9 @@ def judge(root: Path) -> None:
 
 def test_each_bench_gets_its_runs_and_an_unclear_one_is_reported_once(old: Path) -> None:
     judge(old)
-    (found,) = splitting.take_report(old)
+    (found,) = layout.take_report(old)
     assert "r5" in found.summary and ".pico/unsorted/journal.sqlite" in str(found.hint)
-    assert splitting.take_report(old) == ()
+    assert layout.take_report(old) == ()
     assert [place.name for place in local_benches(old)] == ["emulated", "hardware", "sim"]
 
 
@@ -111,7 +111,12 @@ def killed(act: Callable[[], object], at: int) -> bool:
         shutil.rmtree = dying(shutil.rmtree)  # type: ignore[assignment]
         for name in ("rename", "rmdir", "unlink", "mkdir"):
             setattr(Path, name, dying(getattr(Path, name)))
-        for module, name in ((splitting, "copy_runs"), (splitting, "write_whole"), (old_records, "write_seals")):
+        for module, name in (
+            (old_journal, "copy_runs"),
+            (sorting, "write_whole"),
+            (layout, "write_whole"),
+            (old_records, "write_seals"),
+        ):
             setattr(module, name, dying(getattr(module, name)))
         act()
         os._exit(0)
@@ -125,7 +130,7 @@ def test_killed_at_any_moment_it_leaves_the_old_layout_or_the_new_one(old: Path,
         if not killed(lambda root=root: bench_at(root).folder, at):  # type: ignore[misc]
             break
         killed(lambda root=root: bench_at(root).folder, at // 2)  # type: ignore[misc]
-        again += splitting.read_layout(root) is None
+        again += layout.read_layout(root) is None
         judge(root)
         shutil.rmtree(root)
         at += 1
@@ -160,11 +165,11 @@ def test_while_an_earlier_version_moves_a_bench_nothing_is_split(old: Path) -> N
 
 def test_what_an_earlier_version_writes_after_the_split_is_set_aside_and_reported(old: Path) -> None:
     judge(old)
-    splitting.take_report(old)
+    layout.take_report(old)
     with closing(Journal(old / ".pico/journal.sqlite")) as journal:
         begun(journal, "r7", "sim")
     assert runs_in(bench_at(old).folder / "journal.sqlite") == ["r1", "r4"]
-    found = splitting.take_report(old)
+    found = layout.take_report(old)
     assert any("earlier PICO" in one.summary and "earlier-1" in one.summary for one in found)
     assert runs_in(old / ".pico/earlier-1/journal.sqlite") == ["r7"]
 
@@ -206,7 +211,7 @@ def test_a_journal_of_the_first_version_goes_by_the_plans_of_its_runs(tmp_path: 
             "INSERT INTO records VALUES (1, 'a'), (2, 'b');"
         )
     assert [path.name for path in bench_at(tmp_path).folder.parent.iterdir() if path.is_dir()] == ["hardware"]
-    assert "b" in splitting.take_report(tmp_path)[0].summary
+    assert "b" in layout.take_report(tmp_path)[0].summary
 
 
 def test_commands_say_what_could_not_be_sorted(

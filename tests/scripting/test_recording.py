@@ -132,7 +132,7 @@ def test_what_is_asked_to_stop_from_elsewhere_stops(bench: Bench) -> None:
 
     with pytest.raises(PicoError) as caught, bench.record("stopped"):
         turn(bench, 10)
-        holder, last = stop(bench.root)
+        holder, last = stop(bench.place)
         assert holder is not None and holder.what == "recording stopped"
         assert last is not None and last.outcome == "interrupted"
         turn(bench, 20)

@@ -69,7 +69,7 @@ def document(folder: Path, run: str) -> Run:
 
 
 def recorded(folder: Path, run: str) -> Run:
-    return load_run(LabFolder(folder), run)[0].document
+    return load_run(LabFolder(folder, place=bench_at(folder)), run)[0].document
 
 
 # what a commit carries
@@ -112,10 +112,10 @@ def test_a_session_of_settings_is_one_run_in_a_commit(lab: Path, pico: Pico, mon
     assert len(git(lab, "log", "-1", "--format=%B").splitlines()) <= 25
     assert len(text.splitlines()) <= 15
     assert own(lab) == []
-    whole = load_run(LabFolder(lab))[0]
+    whole = load_run(LabFolder(lab, place=bench_at(lab)))[0]
     assert [op.run for op in operations(whole.trace)] == runs
     assert whole.document.tally["done"] == 55
-    found, commit = load_run(LabFolder(lab), runs[17][-6:])
+    found, commit = load_run(LabFolder(lab, place=bench_at(lab)), runs[17][-6:])
     assert (found.document.id, commit and commit.id) == (runs[17], made)
     assert [c.text for c in found.document.changes] == ["15 → 18 deg"]
     assert [op.arguments["to"] for op in operations(found.trace)] == [18]
@@ -509,13 +509,13 @@ def test_what_is_too_big_for_a_commit_goes_to_the_content_store(lab: Path, monke
     monkeypatch.setattr("pico.runs.files.INLINE", 500)
     run, _ = turned(lab, "p1", 5)
     assert [Path(path).name for path in files_of(lab, run)] == ["run.json"]
-    found, carrier = load_run(LabFolder(lab), run)
+    found, carrier = load_run(LabFolder(lab, place=bench_at(lab)), run)
     assert [artifact.name for artifact in found.document.artifacts] == ["trace.jsonl.gz", "measurements.jsonl.gz"]
     assert carrier and carrier.id == git(lab, "rev-parse", "HEAD").strip() and not found.missing
     assert [op.outcome for op in operations(found.trace)] == ["done"]
     assert (found.diagnostics, standing(lab).run) == ((), run)
     shutil.rmtree(lab / ".git" / "pico" / "cas")
-    away, _ = load_run(LabFolder(lab), run)
+    away, _ = load_run(LabFolder(lab, place=bench_at(lab)), run)
     assert (away.trace, away.missing) == ((), {artifact.sha256 for artifact in away.document.artifacts})
     assert "trace.jsonl.gz" in away.diagnostics[0].summary
 
