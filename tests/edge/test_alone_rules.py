@@ -264,6 +264,7 @@ def test_arms_are_parked_at_the_end_unless_nothing_moves_any_more(
 
     async def go(alone: Alone) -> None:
         watching = alone._watching
+        await asyncio.sleep(0)  # it looks
         if how.startswith("leave"):
             await alone.leave(NAME, moves=how == "leave")
         else:
