@@ -12,9 +12,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from laser_lab import UNKNOWN, bench, observed, with_type
 
-from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge import unattended
 from pico.edge.protocol import RECIPE
@@ -51,7 +51,7 @@ class Edge:
     """An edge that notes what it is asked for; who takes it shuts what is due, as the real one does."""
 
     def __init__(self, root: Path, **values: Any) -> None:
-        self.setup, self.root, self.time, self.moves = SETUP, root, NOW, False
+        self.setup, self.place, self.time, self.moves = SETUP, bench_at(root), NOW, False
         self.values, self.joints, self.holding = values, PARKED, None
         self.said, self.fails, self.stuck = list[str](), "", False
         self.started, self.jams = list[Any](), False
@@ -192,7 +192,7 @@ def test_the_edge_ends_a_run_that_is_over_by_itself_and_tells_its_client(
         assert caught.value.exit_code == ExitCode.INTERRUPTED
         alone.goes_on("other@x")
         assert await alone.leave(NAME, moves=True) == alone_left
-        assert read(tmp_path) is not None
+        assert read(bench_at(tmp_path)) is not None
 
     alone_left = Left(why=f"it was to end at {UNTIL}", reached=("shut", "lamps off", "parked"),
                       was={"laser.shutter": "open"})  # fmt: skip
@@ -264,6 +264,7 @@ def test_arms_are_parked_at_the_end_unless_nothing_moves_any_more(
 
     async def go(alone: Alone) -> None:
         watching = alone._watching
+        await asyncio.sleep(0)  # it looks
         if how.startswith("leave"):
             await alone.leave(NAME, moves=how == "leave")
         else:
@@ -278,7 +279,7 @@ def test_arms_are_parked_at_the_end_unless_nothing_moves_any_more(
     if parks:
         (job,) = edge.started
         assert job.plan.target.recipe == NAME and job.plan.target.step == "unattended"
-    left = read(tmp_path)
+    left = read(bench_at(tmp_path))
     if left is not None and left.left is not None and end == ("parked",):
         assert left.left.reached == (("parked",) if parks and not jams else ())
         assert bool(left.left.wrong) is not (parks and not jams)
@@ -313,7 +314,7 @@ def test_what_is_kept_of_a_run_after_its_end(tmp_path: Path, moves: bool, ended:
     edge = Edge(tmp_path, laser=LIT)
 
     async def go(alone: Alone) -> None:
-        assert alive(tmp_path) and read(tmp_path) == terms() and alone.known() == terms()
+        assert alive(bench_at(tmp_path)) and read(bench_at(tmp_path)) == terms() and alone.known() == terms()
         await alone.gone("other@x")
         assert alone.terms is not None and await alone.leave("other@x", moves=True) == Left()
         if ended == "gone":
@@ -322,11 +323,11 @@ def test_what_is_kept_of_a_run_after_its_end(tmp_path: Path, moves: bool, ended:
             await alone.close()
         else:
             await alone.leave(NAME, moves=moves)
-        assert alone.terms is None and not alive(tmp_path) and alone.most() is None
+        assert alone.terms is None and not alive(bench_at(tmp_path)) and alone.most() is None
         assert await alone.leave(NAME, moves=True) == Left(), "it is left already"
 
     held(edge, go)
-    kept = read(tmp_path)
+    kept = read(bench_at(tmp_path))
     if ended == "" and moves:
         assert kept is None, "its client left it as it states, and it will not go on"
     else:
@@ -344,15 +345,15 @@ def test_what_a_run_left_undone_whose_process_died_is_due_to_whoever_comes_next(
     tmp_path: Path, end: tuple[str, ...], who: str
 ) -> None:
     if who != "nobody":
-        unattended._write(tmp_path, terms(end=end, left=Left(why="x") if who == "left" else None))
-    lock = unattended._locked(tmp_path) if who == "alive" else None
+        unattended._write(bench_at(tmp_path), terms(end=end, left=Left(why="x") if who == "left" else None))
+    lock = unattended._locked(bench_at(tmp_path)) if who == "alive" else None
     edge = Edge(tmp_path, laser=LIT, second={"shutter": "open"}, bare={"emission": True}, holder={"illumination": True})
     alone = Alone(edge)  # type: ignore[arg-type]
     due = tuple(alone.tidies(SETUP, asyncio.run(edge.observe())))
     wanted = ["laser.shutter", "bare.emission", "second.shutter"] if "shut" in end else []
     wanted += ["holder.illumination", "cam.illumination"] if "lamps off" in end else []
     assert sorted(op.address for op in due) == (sorted(wanted) if who == "killed" else [])
-    assert alone.due() is (who == "killed") and alive(tmp_path) is (who == "alive")
+    assert alone.due() is (who == "killed") and alive(bench_at(tmp_path)) is (who == "alive")
     for op in due:
         assert op.arguments["to"] in ("closed", False) and op.reason.kind == "interlock"
         assert op.reason.text == "the unattended run night is over"
@@ -364,12 +365,12 @@ def test_what_a_run_left_undone_whose_process_died_is_due_to_whoever_comes_next(
         assert known is not None and known.left is not None and known.left.why == KILLED
         assert f"the bench is not left {', '.join(end)} yet" in known.left.wrong[0].summary
         alone.tidied(due)
-        after = read(tmp_path)
+        after = read(bench_at(tmp_path))
         assert after is not None and after.left is not None and not alone.due()
         assert after.left.reached == tuple(e for e in end if e != "parked") and after.left.why == KILLED
         assert after.left.was == {op.address: op.arguments["from"] for op in due if op.arguments["from"] is not None}
     else:
-        assert known == read(tmp_path)
+        assert known == read(bench_at(tmp_path))
     if lock is not None:
         import os
 
@@ -405,15 +406,15 @@ def test_one_run_is_held_at_a_time_and_the_terms_of_one_that_died_are_brought_ab
         other = Alone(Edge(tmp_path))  # type: ignore[arg-type]
         with pytest.raises(PicoError, match=f"the unattended run {NAME} is under way") as caught:
             await other.hold(terms(recipe="other@x"))
-        assert caught.value.exit_code == ExitCode.LOCKED and other.terms is None and alive(tmp_path)
+        assert caught.value.exit_code == ExitCode.LOCKED and other.terms is None and alive(bench_at(tmp_path))
 
     held(edge, go)
-    unattended._write(tmp_path, terms())
+    unattended._write(bench_at(tmp_path), terms())
     again = Edge(tmp_path, laser=LIT)
     held(again, lambda alone: asyncio.sleep(0), recipe="other@x")
     assert again.said == ["acquire the end of an unattended run 60", "release"]
     assert again.values["laser"]["shutter"] == "closed"
-    unattended._write(tmp_path, terms())
+    unattended._write(bench_at(tmp_path), terms())
     same = Edge(tmp_path, laser=LIT)
     held(same, lambda alone: asyncio.sleep(0))
     assert same.said == [] and same.values["laser"] == LIT, "it goes on with what it had"
@@ -421,7 +422,7 @@ def test_one_run_is_held_at_a_time_and_the_terms_of_one_that_died_are_brought_ab
 
 @pytest.mark.parametrize("recipe", [NAME, "other@x"])
 def test_a_run_that_is_taken_up_hears_how_it_was_left(tmp_path: Path, recipe: str) -> None:
-    unattended._write(tmp_path, terms(left=Left(why="w", reached=("shut",))))
+    unattended._write(bench_at(tmp_path), terms(left=Left(why="w", reached=("shut",))))
     edge = Edge(tmp_path)
 
     async def go() -> Left | None:
@@ -436,8 +437,8 @@ def test_a_run_that_is_taken_up_hears_how_it_was_left(tmp_path: Path, recipe: st
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"recipe": 3}', "null"])
 def test_terms_that_cannot_be_read_are_none(tmp_path: Path, text: str) -> None:
-    unattended._write(tmp_path, terms())
-    path = bench_folder(tmp_path) / "unattended.json"
-    assert json.loads(path.read_text())["recipe"] == NAME and read(tmp_path) == terms()
+    unattended._write(bench_at(tmp_path), terms())
+    path = bench_at(tmp_path).folder / "unattended.json"
+    assert json.loads(path.read_text())["recipe"] == NAME and read(bench_at(tmp_path)) == terms()
     path.write_text(text)
-    assert read(tmp_path) is None and not alive(tmp_path)
+    assert read(bench_at(tmp_path)) is None and not alive(bench_at(tmp_path))

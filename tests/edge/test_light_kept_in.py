@@ -12,9 +12,9 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from laser_lab import POSES, UNKNOWN, bench, carry, commanded, observed, set_to
 
-from pico.attachment import bench_folder
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge import armings, dose, emission
 from pico.model.arming import CLASSES, Arming, ArmingPolicy, LaserRole, Licence
@@ -59,20 +59,20 @@ def in_git(root: Path) -> bool:
 
 
 def file(root: Path, laser: str = "laser") -> Path:
-    return bench_folder(root) / "armed" / f"{laser}.json"
+    return bench_at(root).folder / "armed" / f"{laser}.json"
 
 
 def test_what_a_bench_keeps_it_finds_again_until_it_forgets(root: Path) -> None:
-    assert armings.kept(root) == ()
-    armings.keep(root, given())
-    armings.keep(root, given(laser="second", unattended=True))
-    armings.keep(root, given(ends=NIGHT))
-    assert [(k.laser, k.arming, k.broken) for k in armings.kept(root)] == [
+    assert armings.kept(bench_at(root)) == ()
+    armings.keep(bench_at(root), given())
+    armings.keep(bench_at(root), given(laser="second", unattended=True))
+    armings.keep(bench_at(root), given(ends=NIGHT))
+    assert [(k.laser, k.arming, k.broken) for k in armings.kept(bench_at(root))] == [
         ("laser", given(ends=NIGHT), ""), ("second", given(laser="second", unattended=True), "")
     ]  # fmt: skip
-    armings.forget(root, "laser")
-    armings.forget(root, "laser")
-    assert [k.laser for k in armings.kept(root)] == ["second"]
+    armings.forget(bench_at(root), "laser")
+    armings.forget(bench_at(root), "laser")
+    assert [k.laser for k in armings.kept(bench_at(root))] == ["second"]
     assert not file(root).exists()
     if in_git(root):
         assert len(list((root / ".git" / "pico" / "armed").iterdir())) == 1
@@ -87,24 +87,26 @@ def test_what_a_bench_keeps_it_finds_again_until_it_forgets(root: Path) -> None:
     lambda data: b"\xff" + data,
 ])  # fmt: skip
 def test_a_file_that_is_broken_arms_nothing(root: Path, spoil: Any) -> None:
-    armings.keep(root, given())
+    armings.keep(bench_at(root), given())
     data = file(root).read_bytes()
     assert spoil(data) != data
     file(root).write_bytes(spoil(data))
-    (found,) = armings.kept(root)
+    (found,) = armings.kept(bench_at(root))
     assert (found.laser, found.arming) == ("laser", None) and found.broken
-    assert set(emission.over(SETUP, root, NOON)) == {"laser"}
+    assert set(emission.over(SETUP, bench_at(root), NOON)) == {"laser"}
 
 
 def test_what_the_bench_did_not_write_counts_only_where_nothing_tells(root: Path) -> None:
-    armings.keep(root, given())
+    armings.keep(bench_at(root), given())
     longer = file(root).read_text().replace(EVENING, NIGHT)
     file(root).write_text(longer)
-    (found,) = armings.kept(root)
+    (found,) = armings.kept(bench_at(root))
     if in_git(root):
         assert found.arming is None and found.broken == "it is not what the bench wrote there"
         file(root, "second").write_text(longer.replace('"laser": "laser"', '"laser": "second"'))
-        assert [k.arming for k in armings.kept(root)] == [None, None], "nor a file of a laser that it never armed"
+        assert [k.arming for k in armings.kept(bench_at(root))] == [None, None], (
+            "nor a file of a laser that it never armed"
+        )
     else:
         assert found.arming == given(ends=NIGHT)
 
@@ -114,38 +116,65 @@ def test_another_lab_of_the_repository_has_seals_of_its_own(tmp_path: Path) -> N
     one, two = tmp_path / "one", tmp_path / "two"
     for folder in (one, two):
         folder.mkdir()
-    armings.keep(one, given())
-    armings.keep(two, given(ends=NIGHT))
-    assert [k.arming for k in armings.kept(one)] == [given()]
+    armings.keep(bench_at(one), given())
+    armings.keep(bench_at(two), given(ends=NIGHT))
+    assert [k.arming for k in armings.kept(bench_at(one))] == [given()]
     file(two).write_bytes(file(one).read_bytes())
-    assert [k.arming for k in armings.kept(two)] == [None]
+    assert [k.arming for k in armings.kept(bench_at(two))] == [None]
+
+
+def test_an_arming_of_one_bench_of_a_lab_arms_no_other_one(root: Path) -> None:
+    sim, real = bench_at(root), bench_at(root, "hardware")
+    armings.keep(sim, given())
+    assert armings.kept(real) == ()
+    armings.keep(real, given(ends=NIGHT, backend="hardware"))
+    assert [k.arming for k in armings.kept(sim)] == [given()]
+    (real.folder / "armed" / "laser.json").write_bytes(file(root).read_bytes())
+    (found,) = armings.kept(real)
+    assert (found.arming is None) is in_git(root), "what the simulated bench wrote is no arming of the real one"
+    armings.forget(real, "laser")
+    assert [k.arming for k in armings.kept(sim)] == [given()] and armings.kept(real) == ()
 
 
 def test_a_link_arms_nothing(root: Path) -> None:
-    armings.keep(root, given())
+    armings.keep(bench_at(root), given())
     elsewhere = root / "elsewhere.json"
     file(root).rename(elsewhere)
     file(root).symlink_to(elsewhere)
-    assert [(k.arming, k.broken) for k in armings.kept(root)] == [(None, "it is a link")]
+    assert [(k.arming, k.broken) for k in armings.kept(bench_at(root))] == [(None, "it is a link")]
     file(root).unlink()
     elsewhere.rename(file(root))
-    assert armings.kept(root)[0].arming == given()
+    assert armings.kept(bench_at(root))[0].arming == given()
     moved = root / "folder"
     file(root).parent.rename(moved)
-    (bench_folder_of(root) / "armed").symlink_to(moved)
+    (bench_at(root).folder / "armed").symlink_to(moved)
     for found in _kept_or_refused(root):
         assert found.arming is None
 
 
-def bench_folder_of(root: Path) -> Path:
-    return root / ".pico"
-
-
 def _kept_or_refused(root: Path) -> Sequence[armings.Kept]:
     try:
-        return armings.kept(root)
+        return armings.kept(bench_at(root))
     except PicoError:
         return ()
+
+
+def test_a_folder_that_cannot_be_listed_arms_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refused(*_: Any) -> Any:
+        raise PermissionError(13, "Permission denied")
+
+    armings.keep(bench_at(tmp_path), given())
+    monkeypatch.setattr(Path, "glob", refused)
+    assert armings.kept(bench_at(tmp_path)) == ()
+
+
+def test_a_broken_file_keeps_nobody_from_looking(tmp_path: Path) -> None:
+    armings.keep(bench_at(tmp_path), given())
+    armings.keep(bench_at(tmp_path), given(laser="second"))
+    file(tmp_path).write_text("{")
+    able: Any = SimpleNamespace(name="sim", evidence="hardware")
+    seen = asyncio.run(emission.with_licences(SETUP, bench_at(tmp_path), able, object(), ONE, observed()))  # type: ignore[arg-type]
+    assert seen.licences is not None and list(seen.licences) == ["second"]
 
 
 # which are over
@@ -154,8 +183,8 @@ def _kept_or_refused(root: Path) -> Sequence[armings.Kept]:
 @pytest.mark.parametrize("now", ["2026-11-24T11:00:00Z", NOON, ONE, EVENING, NIGHT])
 @pytest.mark.parametrize("changes", [{}, {"by": "Eve"}, {"seen_over": True}, {"ended_by": "Ben"}])
 def test_an_arming_that_is_over_is_told_with_why(tmp_path: Path, now: str, changes: dict[str, Any]) -> None:
-    armings.keep(tmp_path, given(**changes))
-    found = emission.over(SETUP, tmp_path, now)
+    armings.keep(bench_at(tmp_path), given(**changes))
+    found = emission.over(SETUP, bench_at(tmp_path), now)
     ended = now >= EVENING or "seen_over" in changes
     assert bool(found) is (ended or "by" in changes)
     if "ended_by" in changes and ended:
@@ -171,16 +200,16 @@ def test_an_arming_that_is_over_is_told_with_why(tmp_path: Path, now: str, chang
 def test_a_bench_is_observed_with_what_lets_its_lasers_emit(
     tmp_path: Path, evidence: Any, now: str, waived: Any
 ) -> None:
-    armings.keep(tmp_path, given())
+    armings.keep(bench_at(tmp_path), given())
     setup, able = lab(waived=waived), SimpleNamespace(name="sim", evidence=evidence)
     seen = observed({"laser": Licence(laser_class="4")})
-    got = asyncio.run(emission.with_licences(setup, tmp_path, able, object(), now, seen)).licences  # type: ignore[arg-type]
+    got = asyncio.run(emission.with_licences(setup, bench_at(tmp_path), able, object(), now, seen)).licences  # type: ignore[arg-type]
     assert got is not None
     if waived and evidence == "kinematic":
         assert {n: x.laser_class for n, x in got.items()} == dict.fromkeys(("bare", "laser", "second"), "4")
     else:
         assert {n: (x.laser_class, x.by) for n, x in got.items()} == ({"laser": ("3R", "Ada")} if now == ONE else {})
-    kept = armings.kept(tmp_path)[0].arming
+    kept = armings.kept(bench_at(tmp_path))[0].arming
     assert kept is not None and bool(kept.seen_over) is (now == EVENING), "its end is kept, whatever a clock says later"
 
 
@@ -209,18 +238,20 @@ def test_above_class_2_a_real_bench_lets_out_nothing_before_it_is_commissioned(
     tmp_path: Path, of: Any, waived: Any, real: bool
 ) -> None:
     setup = lab(waived=waived, roles={"user": LaserRole(people=("Ada",), laser_class="4", hours=8.0)})
-    armings.keep(tmp_path, given(laser_class=of, backend="hardware"))
-    armings.keep(tmp_path, given(laser="second", laser_class="1", backend="hardware"))
+    armings.keep(bench_at(tmp_path), given(laser_class=of, backend="hardware"))
+    armings.keep(bench_at(tmp_path), given(laser="second", laser_class="1", backend="hardware"))
     device: Any = Real() if real else object()
-    why = asyncio.run(emission.uncommissioned(setup, tmp_path, HARDWARE, device, ONE))
+    why = asyncio.run(emission.uncommissioned(setup, bench_at(tmp_path), HARDWARE, device, ONE))
     assert why == (("it was never commissioned",) if real else ())
-    got = asyncio.run(emission.with_licences(setup, tmp_path, HARDWARE, device, ONE, observed())).licences
+    got = asyncio.run(emission.with_licences(setup, bench_at(tmp_path), HARDWARE, device, ONE, observed())).licences
     assert got is not None
     held = of in ("3R", "3B", "4") and real
     assert got["laser"].laser_class == ("2" if held else of)
     assert got["laser"].withheld == ("the bench is not commissioned: it was never commissioned" if held else None)
     if real:
-        require = emission.require_commissioned(setup, tmp_path, device, ONE, given(laser_class=of, backend="hardware"))
+        require = emission.require_commissioned(
+            setup, bench_at(tmp_path), device, ONE, given(laser_class=of, backend="hardware")
+        )
         if held:
             with pytest.raises(PicoError, match="stays shut") as caught:
                 asyncio.run(require)
@@ -232,14 +263,14 @@ def test_above_class_2_a_real_bench_lets_out_nothing_before_it_is_commissioned(
 def test_a_waived_bench_needs_no_commissioning_and_a_report_that_cannot_be_read_is_none(tmp_path: Path) -> None:
     able: Any = SimpleNamespace(name="emulated", evidence="emulated")
     waived = lab(waived=("emulated",))
-    assert asyncio.run(emission.uncommissioned(waived, tmp_path, able, Real(), ONE)) == ()  # type: ignore[arg-type]
-    assert asyncio.run(emission.uncommissioned(SETUP, tmp_path, able, Real(), ONE)) != ()  # type: ignore[arg-type]
+    assert asyncio.run(emission.uncommissioned(waived, bench_at(tmp_path), able, Real(), ONE)) == ()  # type: ignore[arg-type]
+    assert asyncio.run(emission.uncommissioned(SETUP, bench_at(tmp_path), able, Real(), ONE)) != ()  # type: ignore[arg-type]
     (tmp_path / FILES["hardware"]).parent.mkdir(parents=True, exist_ok=True)
     (tmp_path / FILES["hardware"]).write_text("{")
-    (why,) = asyncio.run(emission.uncommissioned(SETUP, tmp_path, HARDWARE, Real(), ONE))  # type: ignore[arg-type]
+    (why,) = asyncio.run(emission.uncommissioned(SETUP, bench_at(tmp_path), HARDWARE, Real(), ONE))  # type: ignore[arg-type]
     assert "is no report of a commissioning" in why
     with pytest.raises(PicoError, match="no answer"):
-        asyncio.run(emission.uncommissioned(SETUP, tmp_path, HARDWARE, Real(fails=True), ONE))  # type: ignore[arg-type]
+        asyncio.run(emission.uncommissioned(SETUP, bench_at(tmp_path), HARDWARE, Real(fails=True), ONE))  # type: ignore[arg-type]
 
 
 # what shines without a licence
@@ -376,6 +407,9 @@ def test_a_ledger_counts_the_brighter_of_then_and_now(before: float, now: float,
     after = was.until(held(), seen)
     assert after.at == seen.time and after.power == {"W1": pytest.approx(now)}
     assert after.spent == {"W1": pytest.approx(spent + max(before, now) * max(0.0, seconds)), "other": 7.0}
+    fresh = dose.Ledger(100.0, {}, {}).until(held(), seen)
+    assert fresh.spent == {"W1": pytest.approx(now * max(0.0, seconds))}, "nothing is known to have fallen on it before"
+    assert dose.Ledger().doses(held())[0].power == 0.0
     first = dose.Ledger().until(held(), seen)
     assert first.spent == {"W1": 0.0}, "nobody knows since when"
     (told,) = after.doses(held())
@@ -389,13 +423,13 @@ def test_a_ledger_counts_the_brighter_of_then_and_now(before: float, now: float,
     '{"at": 1, "spent": {"a": "x"}, "power": {}}', '{"at": 1, "spent": 3, "power": {}}',
 ])  # fmt: skip
 def test_a_ledger_that_cannot_be_read_begins_anew(tmp_path: Path, text: str) -> None:
-    assert dose.read(tmp_path) == dose.Ledger()
-    dose.counted(held(), tmp_path, replace(observed(laser=LIT), time=5.0))
-    path = bench_folder(tmp_path) / "dose.json"
+    assert dose.read(bench_at(tmp_path)) == dose.Ledger()
+    dose.counted(held(), bench_at(tmp_path), replace(observed(laser=LIT), time=5.0))
+    path = bench_at(tmp_path).folder / "dose.json"
     assert json.loads(path.read_text())["schema"] == "pico.dose/v1"
-    assert dose.read(tmp_path) == dose.Ledger(5.0, {"W1": 0.0}, {"W1": pytest.approx(4.0)})
+    assert dose.read(bench_at(tmp_path)) == dose.Ledger(5.0, {"W1": 0.0}, {"W1": pytest.approx(4.0)})
     path.write_text(text)
-    assert dose.read(tmp_path) == dose.Ledger()
+    assert dose.read(bench_at(tmp_path)) == dose.Ledger()
 
 
 @pytest.mark.parametrize("spent", [0.0, 9.0])
@@ -410,7 +444,7 @@ def test_what_would_give_a_sample_too_much_is_not_done_and_what_it_had_is_told(
     async def look() -> Observation:
         return replace(observed(laser=laser), time=clock[0])
 
-    path = bench_folder(tmp_path) / "dose.json"
+    path = bench_at(tmp_path).folder / "dose.json"
     path.parent.mkdir(parents=True)
     path.write_text(json.dumps({"at": 100.0, "spent": {"W1": spent}, "power": {"W1": power}}))
 
@@ -421,7 +455,7 @@ def test_what_would_give_a_sample_too_much_is_not_done_and_what_it_had_is_told(
 
     inner = Slow()
     op = replace(set_to("cam", "exposure", 3), seconds=seconds, start=50.0)
-    device = dose.Dosing(setup, tmp_path, inner, look)
+    device = dose.Dosing(setup, bench_at(tmp_path), inner, look)
     result = asyncio.run(device.execute(op, "run/op1/1", lambda before: None))
     if spent + power * seconds > 10.0:
         assert (result.outcome, result.error and result.error.code, inner.done) == ("failed", "dose", [])
@@ -430,4 +464,4 @@ def test_what_would_give_a_sample_too_much_is_not_done_and_what_it_had_is_told(
         assert result.outcome == "done" and inner.done == ["op1"]
         had = power * seconds
         assert result.data == {"value": 1, **({"dose": {"W1": pytest.approx(had)}} if had else {})}
-        assert dose.read(tmp_path).spent["W1"] == pytest.approx(spent + had)
+        assert dose.read(bench_at(tmp_path)).spent["W1"] == pytest.approx(spent + had)
