@@ -178,7 +178,9 @@ def _clear(context: typer.Context, name: str | None, by: Sequence[str]) -> None:
     session = Session.of(context)
     had = session.bench().sim.clear(name)
     whose = ", ".join(had)
-    session.show(said, f"{whose} as before: nothing is hidden of it" if had else "nothing was hidden, so nothing changed")
+    session.show(
+        said, f"{whose} as before: nothing is hidden of it" if had else "nothing was hidden, so nothing changed"
+    )
 
 
 def _show_hidden(context: typer.Context, name: str | None = None) -> None:

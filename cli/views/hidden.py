@@ -21,7 +21,9 @@ def text(setup: Setup, found: Hidden) -> str:
         return "Nothing is hidden in the simulated world: parts are as they read."
     rows = [[name, ", ".join(_said(setup, name, what, by) for what, by in own.items())] for name, own in found.items()]
     lines = [f"  {row}" for row in columns([[paint("dim", "part"), paint("dim", "hidden")], *rows])]
-    return "\n".join([*lines, "Take it back with `pico sim upset COMPONENT --clear`, or all with `pico sim upset --clear`."])
+    return "\n".join(
+        [*lines, "Take it back with `pico sim upset COMPONENT --clear`, or all with `pico sim upset --clear`."]
+    )
 
 
 def _said(setup: Setup, name: str, what: str, by: float | str) -> str:

@@ -1,12 +1,12 @@
-"""What the ray model says that changes of parts do to the quantities of a bench, and what instruments show of it: in the
-dark a meter reads no less than its noise."""
+"""What the ray model says that changes of parts do to the quantities of a bench, and what instruments show of it: in
+the dark a meter reads no less than its noise."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -18,12 +18,10 @@ from pico.diagnosis.nominal import Nominal, Step
 from pico.diagnosis.quantities import Quantity
 from pico.diagnosis.responses import Response, between, constant, smooth
 
-FAR = (3.6, 4.5, 6.0, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0, 32.0, 39.0, 45.0)
-"""Sizes of a slip of an angle beyond those that its curve is for [deg]."""
-SHARES = (0.05, 0.12, 0.25, 0.45, 0.7, 1.0)
+SHARES = (0.1, 0.35, 0.8)
 """Logarithms of a factor of a focal length that are traced."""
-OPENINGS = (0.04, 0.08, 0.14, 0.22, 0.32, 0.44, 0.58, 0.72, 0.86, 0.97)
-"""Shares of its opening by which an iris may have closed that are traced; it may have opened by as much."""
+OPENINGS = (0.04, 0.12, 0.25, 0.45, 0.65, 0.85, 0.97)
+"""Shares of its opening by which an iris may have closed that are traced."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,9 +33,10 @@ class Modelled:
     wanted: tuple[Quantity, ...]
     lowest: Any
 
-    def read(self, steps: Sequence[Step] = ()) -> Any:
-        """Return the quantities (n,) after some changes, nan where the model does not tell."""
-        found = [self.nominal.quantity(one, steps) for one in self.wanted]
+    def read(self, steps: Sequence[Step] = (), *, scans: bool = True) -> Any:
+        """Return the quantities (n,) after some changes, nan where the model does not tell, or of `scans` that are left
+        out."""
+        found = [self.nominal.quantity(one, steps) if scans or len(one.shots) == 1 else None for one in self.wanted]
         return np.array([math.nan if one is None else one.value for one in found])
 
     @cached_property
@@ -65,7 +64,8 @@ class Modelled:
 
     def responses(self, possible: Sequence[Cause]) -> tuple[Response, ...]:
         """Return what each cause does to the quantities, by its size; what was traced once is kept."""
-        return tuple(self.nominal.kept("response", (repr(self.wanted), c), lambda c=c: self._response(c)) for c in possible)
+        key = repr(self.wanted)
+        return tuple(self.nominal.kept("response", (key, c), partial(self._response, c)) for c in possible)
 
     def _response(self, cause: Cause) -> Response:
         if not cause.ways:
@@ -73,7 +73,7 @@ class Modelled:
         if len(cause.ways) == 1 and (sizes := self._traced(cause.part, cause.ways[0])):
             return self._tabled(cause, sizes)
         steps = [w.step for w in cause.ways]
-        return smooth(cause, steps, lambda at: self.read(self._steps(cause, at)) - self.base)
+        return smooth(cause, steps, lambda at, scans: self.read(self._steps(cause, at), scans=scans) - self.base)
 
     def _traced(self, part: str, way: Way) -> tuple[float, ...]:
         """Return the sizes of a way that are traced, where no parabola tells what it does; none where one does."""
@@ -81,19 +81,19 @@ class Modelled:
             return (*(-s for s in reversed(SHARES)), *SHARES)
         if way.what.endswith(":opening"):
             live = float(self.nominal.values.get(part, {}).get("opening") or 0.0)
-            return (*(-s * live for s in reversed(OPENINGS)), *(s * live for s in OPENINGS)) if live else ()
+            return (*(-s * live for s in reversed(OPENINGS)), 0.1 * live, 0.4 * live) if live else ()
         return (math.inf,) if bends(way) else ()
 
     def _tabled(self, cause: Cause, sizes: tuple[float, ...]) -> Response:
         (way,) = cause.ways
         if sizes[0] < math.inf:
             rows = {s: self.read(self._steps(cause, (s,))) - self.base for s in sizes}
-            return between(cause, rows)
+            return between(cause, {0.0: np.zeros(len(self.wanted)), **rows})
         curve = Curve(self.nominal, cause.part, way)
         rows = {float(s): curve.quantities(self.wanted, float(s)) - self.base for s in curve.sizes}
         if way.what.endswith(":angle"):
-            for size in (*FAR, *(-s for s in FAR)):
-                rows[size] = self.read(self._steps(cause, (size,))) - self.base
+            far = Curve(self.nominal, cause.part, way, whole=True)
+            rows |= {float(s): far.quantities(self.wanted, float(s)) - self.base for s in far.sizes}
         return between(cause, rows)
 
     def _steps(self, cause: Cause, size: Sequence[float]) -> tuple[Step, ...]:

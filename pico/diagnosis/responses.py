@@ -83,18 +83,19 @@ def between(cause: Cause, rows: Mapping[float, Any]) -> Response:
     return Response(cause, np.array(sizes)[:, None], moved, np.where(np.isfinite(slope), slope, 0.0)[:, None])
 
 
-def smooth(cause: Cause, steps: Sequence[float], changes: Callable[[Sequence[float]], Any]) -> Response:
-    """Return the response of a cause by its first and second derivatives, from `changes` (n,) at sizes of some
-    `steps`; 0 where these are not known."""
+def smooth(cause: Cause, steps: Sequence[float], changes: Callable[[Sequence[float], bool], Any]) -> Response:
+    """Return the response of a cause by its first and second derivatives, from `changes` (n,) at sizes of some `steps`,
+    with scans or without; 0 where these are not known. A scan is taken to change in proportion."""
     k = len(steps)
     axes = [[s if n == m else 0.0 for m in range(k)] for n, s in enumerate(steps)]
-    ups, downs = [changes(a) for a in axes], [changes([-x for x in a]) for a in axes]
-    slope = np.stack([(u - d) / (2 * s) for u, d, s in zip(ups, downs, steps, strict=True)], axis=1)
+    ups, downs = [changes(a, True) for a in axes], [changes([-x for x in a], False) for a in axes]
+    pairs = list(zip(ups, downs, steps, strict=True))
+    slope = np.stack([np.where(np.isfinite(d), (u - d) / (2 * s), u / s) for u, d, s in pairs], axis=1)
     curved = np.zeros((len(slope), k, k))
-    for n, (u, d, s) in enumerate(zip(ups, downs, steps, strict=True)):
+    for n, (u, d, s) in enumerate(pairs):
         curved[:, n, n] = (u + d) / s**2
     if k == 2:
-        both = changes(steps)
+        both = changes(steps, False)
         curved[:, 0, 1] = curved[:, 1, 0] = (both - ups[0] - ups[1]) / (steps[0] * steps[1])
     slope, curved = (np.where(np.isfinite(one), one, 0.0) for one in (slope, curved))
     faults = np.array([w.fault for w in cause.ways])

@@ -154,7 +154,9 @@ def together(
 
 def _shown(what: Changed, changes: Any) -> Any:
     """Return changes (n,) as instruments show them; 0 where they are not known."""
-    return np.maximum(np.where(np.isnan(changes), np.where(np.isfinite(what.lowest), -np.inf, 0.0), changes), what.lowest)
+    return np.maximum(
+        np.where(np.isnan(changes), np.where(np.isfinite(what.lowest), -np.inf, 0.0), changes), what.lowest
+    )
 
 
 def _finite(slope: Any) -> Any:

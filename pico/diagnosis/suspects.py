@@ -1,13 +1,13 @@
 """What most likely happened to a bench between two readings of it: causes weighed by Bayes' theorem.
 
-Quantities y (n,) were read then and now, with standard deviations; d = now - then, less what is expected to have changed
-because parts were seen to stand elsewhere. A ray model of the bench as it is known gives what a cause of size a (k,) does
-to the quantities, m(a), and its derivatives J (n, k). With nothing unusual,
+Quantities y (n,) were read then and now, with standard deviations; d = now - then, less what is expected to have
+changed because parts were seen to stand elsewhere. A ray model of the bench as it is known gives what a cause of size
+a (k,) does to the quantities, m(a), and its derivatives J (n, k). With nothing unusual,
 
     d ~ N(0, C),  C = diag(sigma_then^2 + sigma_now^2 + (MODEL d)^2) + sum over all ways of usual^2 j j'
 
-as every part goes astray a little by itself; a cause whose ways have the standard deviations S = diag(fault) gives, near
-the size that explains most,
+as every part goes astray a little by itself; a cause whose ways have the standard deviations S = diag(fault) gives,
+near the size that explains most,
 
     d - m(a) + J a ~ N(0, C + J S^2 J'),  with the size  a = S^2 J' (C + J S^2 J')^-1 (d - m(a) + J a)
 
@@ -136,7 +136,11 @@ def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]])
     """Return all suspects with their probabilities, and what else may be."""
     first = weighed_beside(what, Explanation())
     calm = normal(what.spread(Explanation()), what.d) + what.calm
-    other = normal(what.spread(best) * WILD**2, what.left(best)) + math.log(OTHER) + sum(what.prior[n] for n in best.numbers)
+    other = (
+        normal(what.spread(best) * WILD**2, what.left(best))
+        + math.log(OTHER)
+        + sum(what.prior[n] for n in best.numbers)
+    )
     quiet = [f.evidence + p for f, p in zip(first, what.prior, strict=True)]
     if not groups:
         odds = np.array([*quiet, calm, other])
@@ -149,7 +153,10 @@ def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]])
     nothing, unexplained = float(np.exp(min(0.0, calm - np.logaddexp(top, calm)))), float(np.exp(other - top))
     if len(groups) == 1:
         left = 1.0 - nothing - unexplained * (1 - nothing)
-        return [*(replace(s, probability=s.probability * left) for s in groups[0]), *_rest(nothing, unexplained * (1 - nothing))]
+        return [
+            *(replace(s, probability=s.probability * left) for s in groups[0]),
+            *_rest(nothing, unexplained * (1 - nothing)),
+        ]
     return [*(s for group in groups for s in group), *_rest(nothing, unexplained)]
 
 
@@ -179,7 +186,9 @@ def _group(what: Changed, model: Modelled, best: Explanation, k: int) -> tuple[S
     for n in sorted(range(len(odds)), key=lambda n: (-shares[n], n != own)):
         if shares[n] < 1e-3 and n != own:
             continue
-        close = [causes[m].part for m in range(len(odds)) if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part]
+        close = [
+            causes[m].part for m in range(len(odds)) if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part
+        ]
         like = dict.fromkeys((*alike(n, causes, directions), *close))
         told.append(_suspect(causes[n], found[n], float(shares[n]), tuple(_along(what, like))))
     return tuple(told)
@@ -194,7 +203,9 @@ def _along(what: Changed, parts: Mapping[str, None]) -> list[str]:
 def _blind(what: Changed, possible: Sequence[Cause]) -> tuple[str, ...]:
     """Return the parts of whose possible causes none of a usual size would show."""
     noise = np.sqrt(np.diagonal(what.usual))
-    shown = {r.cause.part for r in what.responses if (np.abs(np.where(np.isfinite(r.moved), r.moved, 0)) > 3 * noise).any()}
+    shown = {
+        r.cause.part for r in what.responses if (np.abs(np.where(np.isfinite(r.moved), r.moved, 0)) > 3 * noise).any()
+    }
     return tuple(p for p in dict.fromkeys(c.part for c in possible) if p not in shown)
 
 

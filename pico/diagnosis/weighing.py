@@ -82,7 +82,7 @@ def share_of(found: Weighed, cause: Cause) -> float:
 
 
 def _likeliest(response: Response, spread: Any, d: Any) -> Any:
-    """Return the size (k,) that explains changes best: the best of those that are known, bettered where it is smooth."""
+    """Return the size (k,) that explains changes best: of those that are known, then bettered."""
     ways = response.cause.ways
     if not ways:
         return np.zeros(0)
@@ -102,7 +102,9 @@ def _likeliest(response: Response, spread: Any, d: Any) -> Any:
         if not np.all(np.isfinite(slope)):
             return size
         near = slope.T @ slope + np.diag(1 / scale**2)
-        step = np.linalg.solve(near + damping * np.diag(np.diag(near)), slope.T @ (root @ (d - response.at(size))) - size / scale**2)
+        step = np.linalg.solve(
+            near + damping * np.diag(np.diag(near)), slope.T @ (root @ (d - response.at(size))) - size / scale**2
+        )
         there = size + step
         off = root @ (d - response.at(there))
         now = float(off @ off + ((there / scale) ** 2).sum())

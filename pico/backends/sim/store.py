@@ -114,7 +114,8 @@ def _pose(data: Mapping[str, Any]) -> Pose:
 
 
 def _unseen(data: Mapping[str, Any]) -> Unseen:
-    return Unseen(**{k: str(v) if k == "optic" else _number(v) for k, v in data.items()})
+    sizes = {k: _number(v) for k, v in data.items() if k != "optic"}
+    return Unseen(optic=str(data.get("optic", "")), **sizes)
 
 
 def _body(data: Mapping[str, Any]) -> WorldBody:
