@@ -62,7 +62,8 @@ class Mornings:
         if not quantities:
             hint = "; ".join(what.lacks) or "no detector stands in a beam"
             raise PicoError(error("morning", "nothing of this bench tells how its light is", hint=hint))
-        found, lacks = self._ahead(seen, quantities), what.lacks
+        quantities, gone = _there(seen, quantities)
+        found, lacks = self._ahead(seen, quantities), (*what.lacks, *gone)
         if found[0].exit_code and (wrong := self._refused(seen, quantities)):
             quantities = tuple(q for q in quantities if q.name not in wrong)
             found, lacks = self._ahead(seen, quantities), (*lacks, *wrong.values())
@@ -158,6 +159,15 @@ class Mornings:
         if key not in self._nominals:
             self._nominals = {key: found}
         return self._nominals[key]
+
+
+def _there(seen: Observation, quantities: Sequence[Quantity]) -> tuple[tuple[Quantity, ...], tuple[str, ...]]:
+    """Return the quantities of whose shots all parts are on the table, and why the others are not read."""
+    gone = {n for n, part in seen.components.items() if part.presence != "seen"}
+    parts = [{a.partition(".")[0] for s in q.shots for a in (s.address, *s.at)} & gone for q in quantities]
+    left = {name: [q.name for q, own in zip(quantities, parts, strict=True) if name in own] for name in sorted(gone)}
+    why = (f"{', '.join(names)} would be read, were {name} on the table" for name, names in left.items() if names)
+    return tuple(q for q, own in zip(quantities, parts, strict=True) if not own), tuple(why)
 
 
 _BEGAN = ("operation_started", "operation_done", "operation_failed", "operation_unknown")

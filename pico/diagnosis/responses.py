@@ -21,6 +21,10 @@ _REACH = (0.1, 0.25, 0.5, 1.0, 1.6, 2.5, 4.0, 7.0, 12.0)
 """Sizes at which a cause is tried first, in those that are usual for a fault."""
 
 
+LEVEL = ("dark",)
+"""Ways that are far from a parabola over the size of a fault, and in proportion in what tells of them most."""
+
+
 @dataclass(frozen=True, eq=False)
 class Response:
     """Changes of quantities (n) by a `cause` of k ways: `moved` (m, n) at some `sizes` (m, k), the first of which is
@@ -98,6 +102,8 @@ def smooth(cause: Cause, steps: Sequence[float], changes: Callable[[Sequence[flo
         both = changes(steps, False)
         curved[:, 0, 1] = curved[:, 1, 0] = (both - ups[0] - ups[1]) / (steps[0] * steps[1])
     slope, curved = (np.where(np.isfinite(one), one, 0.0) for one in (slope, curved))
+    if any(w.what in LEVEL for w in cause.ways):
+        curved[:] = 0.0
     faults = np.array([w.fault for w in cause.ways])
     slope = np.where(np.abs(slope) * faults > 1e-7, slope, 0.0)
     curved = np.where(np.abs(curved) * faults[:, None] * faults[None, :] > 1e-6, curved, 0.0)

@@ -5,6 +5,7 @@ dropped where that explains more.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -22,7 +23,7 @@ BESIDE = 3
 """How many explanations are followed at a time."""
 BETTER = 1.0
 """By how much the logarithm of the evidence must grow for a cause to replace another."""
-ROUNDS = 3
+ROUNDS, ANEW = 3, 5
 """How often all causes together are modelled anew."""
 
 
@@ -129,7 +130,7 @@ def together(
     """Return an explanation with its causes at the sizes that explain most together. `model`: by which what they do
     together is traced; without it that is the sum of what each does. `anew`: their slopes are traced, too."""
     responses, sizes = [what.responses[n] for n in one.numbers], [f.size for f in one.found]
-    best: Explanation | None = None
+    best, least = Explanation(), math.inf
     for number in range(rounds):
         moved = [_shown(what, r.at(s)) for r, s in zip(responses, sizes, strict=True)]
         slopes = [
@@ -141,15 +142,23 @@ def together(
         )
         beside = one.beside if model is None else _whole(model, responses, sizes, moved) - sum(moved, 0.0)
         now = _judged(what, Explanation(one.numbers, found, beside))
-        if best is None or now.odds > best.odds:
-            best = now
+        if (off := _misfit(what, now)) < least:
+            best, least = now, off
         if number == rounds - 1:
             break
         last, sizes = sizes, _sizes(what, now)
-        if all(np.allclose(a, b, rtol=2e-3, atol=1e-9) for a, b in zip(sizes, last, strict=True)):
+        near = [0.1 * np.sqrt(np.maximum(0.0, np.diagonal(f.spread))) for f in now.found]
+        if all((np.abs(a - b) <= n + 1e-12).all() for a, b, n in zip(sizes, last, near, strict=True)):
             break
-    assert best is not None
     return best
+
+
+def _misfit(what: Changed, one: Explanation) -> float:
+    """Return how far an explanation is from what changed, in variances, with how rare the sizes of its causes are."""
+    left = what.d - sum((f.moved for f in one.found), np.zeros(len(what.d)))
+    left = left - (0.0 if one.beside is None else one.beside)
+    rare = sum(float(np.sum((f.size / f.prior) ** 2)) for f in one.found if len(f.size))
+    return float(left @ np.linalg.solve(what.noise(one.found), left)) + rare
 
 
 def _shown(what: Changed, changes: Any) -> Any:
@@ -188,7 +197,7 @@ def _slope(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any],
     """Return the derivatives (n, k) of the quantities by one of some causes, all at their sizes."""
     own, size = responses[number], sizes[number]
     near = own.slope_at(size)
-    if len(responses) == 1 and not own.bends:
+    if all(abs(s) < 2 * w.step for s, w in zip(size, own.cause.ways, strict=True)) and len(responses) == 1:
         return _finite(near)
     others = [s for m, r in enumerate(responses) if m != number for s in r.steps(sizes[m])]
     columns = []
@@ -234,7 +243,7 @@ def _settled(what: Changed, model: Modelled, best: Explanation) -> Explanation:
         if other is None:
             break
         best = other
-    exact = together(what, model, best, 2, anew=True)
+    exact = together(what, model, best, ANEW, anew=True)
     return exact if exact.odds > best.odds - BETTER else best
 
 

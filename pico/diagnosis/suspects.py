@@ -39,6 +39,8 @@ MODEL = 0.03
 QUIET, OTHER, WILD = 0.9, 0.005, 30.0
 CLOSE = 3.0
 """Up to which difference of the logarithm of the odds another part explains what was read as well as the first."""
+LEAST = 1e-3
+"""The least probability of a suspect that is told."""
 KEPT = 4
 """How many alternatives to a cause are modelled anew, the likeliest."""
 DARK = 0.3
@@ -183,8 +185,10 @@ def _group(what: Changed, model: Modelled, best: Explanation, k: int) -> tuple[S
     causes = [r.cause for r in what.responses]
     directions = [direction(f, c, spread) for f, c in zip(found, causes, strict=True)]
     told = []
+    shares = np.where((shares < LEAST) & (np.arange(len(shares)) != own), 0.0, shares)
+    shares /= shares.sum()
     for n in sorted(range(len(odds)), key=lambda n: (-shares[n], n != own)):
-        if shares[n] < 1e-3 and n != own:
+        if not shares[n] and n != own:
             continue
         close = [
             causes[m].part for m in range(len(odds)) if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part

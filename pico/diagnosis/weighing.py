@@ -129,7 +129,8 @@ def direction(found: Weighed, cause: Cause, spread: Any) -> Any:
     root = np.linalg.cholesky(np.linalg.inv(spread)).T
     if not cause.ways:
         return root @ np.where(np.isfinite(found.moved), found.moved, 0.0)[:, None]
-    return root @ (found.slope * np.array([w.fault for w in cause.ways]))
+    slope = np.where(np.isfinite(found.slope), found.slope, 0.0)
+    return root @ (slope * np.array([w.fault for w in cause.ways]))
 
 
 def alike(number: int, possible: Sequence[Cause], directions: Sequence[Any]) -> tuple[str, ...]:
@@ -138,7 +139,8 @@ def alike(number: int, possible: Sequence[Cause], directions: Sequence[Any]) -> 
     for n, other in enumerate(directions):
         if possible[n].part == possible[number].part or not other.any():
             continue
-        base, _ = np.linalg.qr(other)
+        base, sizes, _ = np.linalg.svd(other, full_matrices=False)
+        base = base[:, sizes > 1e-6 * sizes[0]]
         kept, size = np.linalg.norm(base @ (base.T @ own)), np.linalg.norm(own)
         if size > 0 and kept / size > ALIKE:
             found.append(possible[n].part)
