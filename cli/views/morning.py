@@ -61,7 +61,7 @@ def text(morning: Morning) -> str:
 
 def _first(morning: Morning) -> str:
     """Return what is said of a morning that was compared with nothing."""
-    if all(r.now is None or not r.unit for r in morning.readings) and morning.lacks:
+    if any(lack.startswith("no light comes to a detector") for lack in morning.lacks):
         return "No reference yet, and this morning can be none: no light comes to a detector."
     return "No reference yet: `pico morning --accept` makes this bench, as its light is now, the one to compare with."
 

@@ -16,7 +16,7 @@ from pico.diagnosis.curves import Curve, bends
 from pico.diagnosis.darkness import stopped
 from pico.diagnosis.nominal import Nominal, Step
 from pico.diagnosis.quantities import Quantity
-from pico.diagnosis.responses import Response, between, constant, smooth
+from pico.diagnosis.responses import Response, between, constant, linear, shown, smooth
 
 SHARES = (0.1, 0.35, 0.8)
 """Logarithms of a factor of a focal length that are traced."""
@@ -51,8 +51,7 @@ class Modelled:
 
     def shown(self, changes: Any) -> Any:
         """Return changes (..., n) as instruments show them."""
-        dark = np.isfinite(self.lowest) & ~np.isfinite(changes)
-        return np.maximum(np.where(dark, -np.inf, changes), self.lowest)
+        return shown(changes, self.lowest)
 
     def slopes(self, ways: Sequence[tuple[str, Way]]) -> dict[tuple[str, str], Any]:
         """Return the derivatives (n,) of the quantities by ways of parts, 0 where the model does not tell."""
@@ -62,6 +61,14 @@ class Modelled:
         slope = (self.read((Step(part, way.what, way.step),)) - self.base) / way.step
         return np.where(np.isfinite(slope) & (np.abs(slope) * way.fault > 1e-9), slope, 0.0)
 
+    def proportional(self, possible: Sequence[Cause]) -> tuple[Response, ...]:
+        """Return what each cause does, taken to be in proportion to its size: with one trace for each way."""
+        slopes = self.nominal.kept("slopes", (repr(self.wanted), tuple(possible)), partial(self._slopes, possible))
+        return tuple(linear(c, [slopes[c.part, w.what] for w in c.ways]) for c in possible if c.ways)
+
+    def _slopes(self, possible: Sequence[Cause]) -> dict[tuple[str, str], Any]:
+        return self.slopes([(cause.part, way) for cause in possible for way in cause.ways])
+
     def responses(self, possible: Sequence[Cause]) -> tuple[Response, ...]:
         """Return what each cause does to the quantities, by its size; what was traced once is kept."""
         key = repr(self.wanted)
@@ -69,7 +76,7 @@ class Modelled:
 
     def _response(self, cause: Cause) -> Response:
         if not cause.ways:
-            return constant(cause, stopped(self.nominal, self.wanted, cause), self.lowest)
+            return constant(cause, stopped(self.nominal, self.wanted, cause))
         if len(cause.ways) == 1 and (sizes := self._traced(cause.part, cause.ways[0])):
             return self._tabled(cause, sizes)
         steps = [w.step for w in cause.ways]

@@ -6,9 +6,8 @@ and a centroid moves in proportion. What is no parabola is traced at some sizes 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
 
@@ -27,14 +26,15 @@ LEVEL = ("dark",)
 
 @dataclass(frozen=True, eq=False)
 class Response:
-    """Changes of quantities (n) by a `cause` of k ways: `moved` (m, n) at some `sizes` (m, k), the first of which is
-    nothing, and `slope` (n, k) there; of a smooth one `curved` (n, k, k), its second derivatives."""
+    """Changes of quantities (n) by a `cause` of k ways: `moved` (m, n) at some `sizes` (m, k), and `slope` (n, k) where
+    nothing has changed; of a smooth one `curved` (n, k, k), its second derivatives. `lowest`: see `shown`."""
 
     cause: Cause
     sizes: Any
     moved: Any
     slope: Any
     curved: Any | None = None
+    lowest: Any = -np.inf
 
     @property
     def bends(self) -> bool:
@@ -46,12 +46,17 @@ class Response:
         ways = zip(self.cause.ways, np.asarray(size).tolist(), strict=True)
         return tuple(Step(self.cause.part, way.what, by) for way, by in ways if by)
 
+    def shown(self, lowest: Any) -> Response:
+        """Return the same as instruments show it: no change is below the `lowest` (n,), where no light comes any more
+        it is that."""
+        return replace(self, moved=shown(self.moved, lowest), lowest=lowest)
+
     def at(self, size: Any) -> Any:
         """Return the changes (n,) at a size (k,)."""
         if not self.cause.ways:
             return self.moved[0]
         if self.curved is not None:
-            return self.slope @ size + 0.5 * np.einsum("nij,i,j->n", self.curved, size, size)
+            return shown(self.slope @ size + 0.5 * np.einsum("nij,i,j->n", self.curved, size, size), self.lowest)
         low, share = self._stretch(float(size[0]))
         return (1 - share) * self.moved[low] + share * self.moved[low + 1]
 
@@ -60,7 +65,8 @@ class Response:
         if not self.cause.ways:
             return self.slope
         if self.curved is not None:
-            return self.slope + np.einsum("nij,j->ni", self.curved, size)
+            slope = self.slope + np.einsum("nij,j->ni", self.curved, size)
+            return np.where((self.at(size) > self.lowest)[:, None], slope, 0.0)
         low, _ = self._stretch(float(size[0]))
         return ((self.moved[low + 1] - self.moved[low]) / (self.sizes[low + 1] - self.sizes[low]))[:, None]
 
@@ -71,10 +77,15 @@ class Response:
         return low, float((size - known[low]) / (known[low + 1] - known[low]))
 
 
-def constant(cause: Cause, moved: Any, lowest: Any) -> Response:
-    """Return the response of a cause without a size, that leaves quantities in the dark where `moved` (n,) is true."""
-    down = np.where(moved, np.where(np.isfinite(lowest), lowest, -math.inf), 0.0)
-    return Response(cause, np.zeros((1, 0)), down[None, :], np.zeros((len(down), 0)))
+def shown(changes: Any, lowest: Any) -> Any:
+    """Return changes (..., n) as instruments show them: where no light comes any more (nan), as much as they can."""
+    dark = np.isfinite(lowest) & ~np.isfinite(changes)
+    return np.maximum(np.where(dark, -np.inf, changes), lowest)
+
+
+def constant(cause: Cause, dark: Any) -> Response:
+    """Return the response of a cause without a size, that leaves quantities in the dark where `dark` (n,) is true."""
+    return Response(cause, np.zeros((1, 0)), np.where(dark, -np.inf, 0.0)[None, :], np.zeros((len(dark), 0)))
 
 
 def between(cause: Cause, rows: Mapping[float, Any]) -> Response:
@@ -107,7 +118,18 @@ def smooth(cause: Cause, steps: Sequence[float], changes: Callable[[Sequence[flo
     faults = np.array([w.fault for w in cause.ways])
     slope = np.where(np.abs(slope) * faults > 1e-7, slope, 0.0)
     curved = np.where(np.abs(curved) * faults[:, None] * faults[None, :] > 1e-6, curved, 0.0)
-    line = [0.0, *(s for r in _REACH for s in (r, -r))]
-    sizes = np.array(list(product(*([w.fault * s for s in line] for w in cause.ways))))
+    sizes = _tried(cause)
     moved = sizes @ slope.T + 0.5 * np.einsum("nij,mi,mj->mn", curved, sizes, sizes)
     return Response(cause, sizes, moved, slope, curved)
+
+
+def linear(cause: Cause, slopes: Sequence[Any]) -> Response:
+    """Return the response of a cause of some ways in proportion to its size, by the `slopes` (n,) of each way."""
+    slope, sizes = np.stack(slopes, axis=1), _tried(cause)
+    return Response(cause, sizes, sizes @ slope.T, slope, np.zeros((*slope.shape, len(slopes))))
+
+
+def _tried(cause: Cause) -> Any:
+    """Return the sizes (m, k) at which a cause is tried first, nothing among them."""
+    line = [0.0, *(s for r in _REACH for s in (r, -r))]
+    return np.array(list(product(*([w.fault * s for s in line] for w in cause.ways))))

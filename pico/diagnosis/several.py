@@ -30,8 +30,8 @@ ROUNDS, ANEW = 3, 5
 @dataclass(frozen=True, eq=False)
 class Changed:
     """What is to be explained: changes `d` (n,) of covariance `usual` (n, n) when nothing unusual happened, the
-    `responses` of causes with the logarithm of the `prior` of each, `calm` that of nothing (more), the share `model` by
-    which a change may differ from what the model gives it, and the `lowest` changes (n,) that can be shown."""
+    `responses` of causes with the logarithm of the `prior` of each, `calm` that of nothing, and the share `model` by
+    which a change may differ from what the model gives it."""
 
     d: Any
     usual: Any
@@ -39,7 +39,6 @@ class Changed:
     prior: tuple[float, ...]
     calm: float
     model: float
-    lowest: Any
 
     def noise(self, causes: Sequence[Weighed] = ()) -> Any:
         """Return the covariance (n, n) of changes whose causes are known in size."""
@@ -132,9 +131,9 @@ def together(
     responses, sizes = [what.responses[n] for n in one.numbers], [f.size for f in one.found]
     best, least = Explanation(), math.inf
     for number in range(rounds):
-        moved = [_shown(what, r.at(s)) for r, s in zip(responses, sizes, strict=True)]
+        moved = [_known(r.at(s)) for r, s in zip(responses, sizes, strict=True)]
         slopes = [
-            _slope(model, responses, sizes, m) if model and anew else _finite(r.slope_at(s))
+            _slope(model, responses, sizes, m) if model and anew else _known(r.slope_at(s))
             for m, (r, s) in enumerate(zip(responses, sizes, strict=True))
         ]
         found = tuple(
@@ -161,15 +160,9 @@ def _misfit(what: Changed, one: Explanation) -> float:
     return float(left @ np.linalg.solve(what.noise(one.found), left)) + rare
 
 
-def _shown(what: Changed, changes: Any) -> Any:
-    """Return changes (n,) as instruments show them; 0 where they are not known."""
-    return np.maximum(
-        np.where(np.isnan(changes), np.where(np.isfinite(what.lowest), -np.inf, 0.0), changes), what.lowest
-    )
-
-
-def _finite(slope: Any) -> Any:
-    return np.where(np.isfinite(slope), slope, 0.0)
+def _known(changes: Any) -> Any:
+    """Return changes, 0 where they are not known."""
+    return np.where(np.isfinite(changes), changes, 0.0)
 
 
 def _whole(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any], moved: Sequence[Any]) -> Any:
@@ -198,7 +191,7 @@ def _slope(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any],
     own, size = responses[number], sizes[number]
     near = own.slope_at(size)
     if all(abs(s) < 2 * w.step for s, w in zip(size, own.cause.ways, strict=True)) and len(responses) == 1:
-        return _finite(near)
+        return _known(near)
     others = [s for m, r in enumerate(responses) if m != number for s in r.steps(sizes[m])]
     columns = []
     for k, way in enumerate(own.cause.ways):

@@ -31,6 +31,7 @@ from pico.diagnosis.darkness import losses
 from pico.diagnosis.modelled import Modelled
 from pico.diagnosis.nominal import Nominal
 from pico.diagnosis.quantities import FLICKER, Got, Quantity
+from pico.diagnosis.responses import Response
 from pico.diagnosis.several import Changed, Explanation, explained, together, weighed_beside
 from pico.diagnosis.weighing import Weighed, alike, direction, normal
 
@@ -39,6 +40,8 @@ MODEL = 0.03
 QUIET, OTHER, WILD = 0.9, 0.005, 30.0
 CLOSE = 3.0
 """Up to which difference of the logarithm of the odds another part explains what was read as well as the first."""
+CHANCE, UNUSUAL = 2.0, 3.0
+"""Standard deviations of their sum of squares, and of one of them, up to which changes are taken to be chance."""
 LEAST = 1e-3
 """The least probability of a suspect that is told."""
 KEPT = 4
@@ -120,18 +123,40 @@ def suspects(
     model = Modelled(nominal, tuple(c.quantity for c in known), np.array([c.lowest for c in known]))
     if any(c.quantity.law == "share" and c.now.sigma > DARK and c.change < -1 for c in known):
         possible = (*possible, *losses(nominal, tuple(dict.fromkeys(c.part for c in possible))))
-    responses = tuple(r for r in model.responses(possible) if r.slope.any() or (r.moved != 0).any())
-    usual = _usual(known, responses) + _loose(model, loose)
-    prior, d = _prior([r.cause for r in responses]), np.array([c.change for c in known])
-    what = Changed(d, usual, responses, tuple(prior), math.log(QUIET), MODEL, model.lowest)
-    best = explained(what, model)
+    away = _loose(model, loose)
+    found = _weighed(known, model, model.proportional(possible), away)
+    if found[1].numbers or _far(*found):
+        found = _weighed(known, model, model.responses(possible), away)
+    what, best = found
     groups = [_group(what, model, best, k) for k in range(len(best.numbers))]
     told = _told(what, best, groups)
-    by = {id(c): float(change) for c, change in zip(known, d / np.sqrt(np.diagonal(usual)), strict=True)}
+    by = {id(c): float(x) for c, x in zip(known, what.d / np.sqrt(np.diagonal(what.usual)), strict=True)}
     return Verdict(
         tuple(sorted(told, key=lambda s: -s.probability)), tuple(by.get(id(c), math.nan) for c in compared),
         tuple(groups), _blind(what, possible),
     )  # fmt: skip
+
+
+def _weighed(
+    known: Sequence[Compared], model: Modelled, responses: Sequence[Response], away: Any
+) -> tuple[Changed, Explanation]:
+    """Return what is to be explained by causes with some responses, and the likeliest explanation. `away`: covariance
+    that is usual besides."""
+    shown = (r.shown(model.lowest) for r in responses)
+    telling = tuple(r for r in shown if r.slope.any() or (r.moved != 0).any())
+    prior = tuple(_prior([r.cause for r in telling]))
+    d = np.array([c.change for c in known])
+    what = Changed(d, _usual(known, telling) + away, telling, prior, math.log(QUIET), MODEL)
+    return what, explained(what, model)
+
+
+def _far(what: Changed, best: Explanation) -> bool:
+    """Return whether changes are so far from what is usual that causes out of proportion must be weighed, too."""
+    many = len(what.d)
+    chance = float(what.d @ np.linalg.solve(what.spread(best), what.d))
+    return chance > many + CHANCE * math.sqrt(2 * many) or bool(
+        (what.d**2 > UNUSUAL**2 * np.diagonal(what.usual)).any()
+    )
 
 
 def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]]) -> list[Suspect]:
@@ -213,7 +238,7 @@ def _blind(what: Changed, possible: Sequence[Cause]) -> tuple[str, ...]:
     return tuple(p for p in dict.fromkeys(c.part for c in possible) if p not in shown)
 
 
-def _usual(known: Sequence[Compared], responses: Sequence[Any]) -> Any:
+def _usual(known: Sequence[Compared], responses: Sequence[Response]) -> Any:
     """Return the covariance (n, n) of what changes from day to day: noise, and every part a little."""
     spread = np.diag([c.then.sigma**2 + c.now.sigma**2 + (MODEL * c.shift) ** 2 + 1e-18 for c in known])
     for response in responses:

@@ -96,7 +96,7 @@ def _other_optic(setup: Setup, name: str, optic: str) -> Iterator[Diagnostic]:
     alike = sorted(n for n, kind in setup.catalog.items() if kind.optics.element == element)
     if optic not in setup.catalog:
         hint = did_you_mean(optic, alike) or f"types of the same element: {', '.join(alike[:8])}"
-        yield error("unseen", f"the catalog has no type `{optic}`", hint=hint, address=name)
+        yield error("unseen", f"this lab has no type `{optic}`", hint=hint, address=name)
     elif optic not in alike or element in ("none", "block", "source", "detector"):
         text = f"{optic} does not fit in the mount of {name}: that holds a {element}"
         yield error("unseen", text, hint=f"types that do: {', '.join(alike[:8])}", address=name)
