@@ -58,7 +58,8 @@ def upsets(parts: tuple[str, ...], what: str, low: float, high: float) -> Fault:
 
     def happen(bench: Bench, draw: Draw) -> str:
         part, by = draw.choice(parts), size(draw, low, high)
-        bench.sim.upset(part, **{what: math.exp(draw.choice((-1, 1)) * by) if what == "gain" else by})
+        factor = {"gain": math.exp(draw.choice((-1, 1)) * by), "power": 1 - by}
+        bench.sim.upset(part, **{what: factor.get(what, by)})
         return part
 
     return happen
@@ -82,7 +83,7 @@ KINDS: dict[str, Fault] = {
     "polarizer leaks": upsets(("p1", "p2"), "leak", 2e-4, 3e-3),
     "lens moved below sight": moves(("lx_125", "ly_150"), "left", "up", 0.03, 0.15),
     "stage zero slipped": slips(("ly_150.stage_y", "ly_150.stage_z"), 0.03, 0.15),
-    "laser power down": upsets(("laser",), "loss", 0.05, 0.3),
+    "laser power down": upsets(("laser",), "power", 0.05, 0.3),
     "laser points elsewhere": moves(("laser",), "yaw", "pitch", 0.003, 0.017),
     "dirt on an optic": upsets(OPTICS, "loss", 0.03, 0.3),
     "camera hot": upsets(("cam",), "dark", 20.0, 500.0),
@@ -185,7 +186,7 @@ def main() -> None:
         with pico.open(root, fidelity="kinematic") as bench:
             bench.apply()
             bench.sim.wait(7200)  # the laser is warm
-            first = bench.morning()
+            first = bench.morning(accept=True)
             print(f"a morning takes {first.seconds:.0f} s of the bench, {len(first.readings)} quantities", flush=True)
             for number in range(rounds):  # some of each kind and quiet ones in each round, so that any time tells
                 for kind, fault in KINDS.items() if number < args.faults else ():

@@ -26,11 +26,12 @@ def morning(
     auto_approve: Yes = False,
     lock_timeout: LockTimeout = None,
 ) -> int:
-    """Read the light of the bench, and say what befell it overnight.
+    """Measure the light of the bench and report what changed overnight.
 
     Arms stay parked. Powers, pointing and dark frames are read, and the nulls of polarizers by motors that go back to
-    where they stood, also on Ctrl-C. What differs from the last morning that was accepted is told, with the part that
-    explains it best and the shortest repair. The first morning is accepted; no laser is opened for it.
+    where they stood, also on Ctrl-C; no laser is opened. What differs from the last morning that was accepted is listed
+    with what happened: parts that were moved, and the parts that explain the rest best, each with its repair. Only
+    --accept makes a morning the reference.
 
     Examples:
       pico morning
@@ -47,7 +48,7 @@ def morning(
     session = Session.of(context)
     bench = session.bench(fidelity, None, writing=not dry_run)
     with waiting("Looking where the light goes"):
-        survey = bench.mornings.survey()
+        survey = bench.mornings.survey(accept=accept)
     if survey.plan.errored or not session.json:
         code = show(session, bench, survey.plan, auto_approve or dry_run, single=True)
         if code:
@@ -65,7 +66,7 @@ def morning(
         elif terminal and (line := view.line(event)):
             write(sys.stdout, line, end="", over=True)
 
-    report, found = bench.mornings.read(survey, heard, say, accept=accept)
+    report, found = bench.mornings.read(survey, heard, say)
     if terminal:
         write(sys.stdout, "", end="", over=True)
     session.show(view, found)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 from ..arguments import Component, Seed, group
 from ..session import Session
+from ..views import hidden
 from ..views import simulated as said
 
 if TYPE_CHECKING:
@@ -17,9 +18,16 @@ if TYPE_CHECKING:
     from pico.bench.bench import Bench
 
 app = group(
-    help="Act on the simulated world, as a hand would.",
-    examples=("pico sim nudge p2 --dx 5", "pico sim faults drop=0.05 seed=3", "pico sim reset"),
+    help="Act on the simulated world, as a hand would; alone, show what is hidden in it.",
+    examples=("pico sim nudge p2 --dx 5", "pico sim faults drop=0.05 seed=3", "pico sim reset", "pico sim"),
+    alone=True,
 )
+
+
+@app.callback()
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        _show_hidden(context)
 
 
 def _finite(value: float) -> float:
@@ -109,7 +117,8 @@ def slip(
 ) -> None:
     """Let a mount slip: an axis then reads another value than light finds.
 
-    Nothing that is read tells of it, and homing does not bring it back; a second slip adds to the first.
+    Nothing that is read tells of it, and homing does not bring it back; a second slip adds to the first, and
+    `pico sim upset p1 --clear` takes it back.
 
     Examples:
       pico sim slip p1.angle 2.1
@@ -122,33 +131,67 @@ def slip(
     session.show(said, f"{address} truly is {by:g} {unit} more than before, and reads the same; light alone tells")
 
 
-@app.command()
+@app.command("upset", context_settings={"ignore_unknown_options": True})
 def upset(
     context: typer.Context,
-    name: Component,
-    by: Annotated[list[str], typer.Argument(metavar="WHAT=BY...", help="For example up=0.1 loss=0.2.")],
+    name: Annotated[str | None, typer.Argument(metavar="COMPONENT", help="A component of the inventory.")] = None,
+    by: Annotated[
+        list[str] | None, typer.Argument(metavar="WHAT=BY", help="For example up=0.1 loss=20%.", show_default=False)
+    ] = None,
+    clear: Annotated[
+        bool, typer.Option("--clear", help="Take back what befell it and its slips; of all where none is named.")
+    ] = False,
 ) -> None:
-    """Let something befall a part that no camera over the bench sees.
+    """Let something befall a part that no camera over the bench sees; alone, show what is hidden.
 
     Displaced along its own axes: ahead, left, up [mm]; turned about them: roll, pitch, yaw [deg]; dirty: loss, a share
-    of its light. Of a polarizer leak, a share of what it should stop; of a detector gain, a factor, and dark, what it
-    reads without light. It adds to what befell it before.
+    of its light. Of a laser power; of a lens focal_length [mm]; of a wave plate retardance [waves]; of a polarizer
+    leak, a share of what it should stop; of a detector gain, and dark, what it reads without light. A power or a gain
+    is a factor, or a change in percent. optic: the type whose optic stands in its mount instead of its own. It adds to
+    what befell it before; a focal length and an optic replace that.
 
     Examples:
       pico sim upset lx_100 up=0.08
-      pico sim upset cam gain=0.9 dark=200
+      pico sim upset laser power=-30%
+      pico sim upset lx_100 focal_length=150
+      pico sim upset lx_100 optic=plano_convex_125
+      pico sim upset --clear
     """
+    from pico.optics.upsets import parse
+
+    if clear:
+        _clear(context, name, by or ())
+    elif name is None or not by:
+        _show_hidden(context, name)
+    else:
+        given = parse(by)
+        said_so = ", ".join(by)
+        _act(context, lambda sim: sim.upset(name, **given), f"{name}: {said_so}; no camera over the bench sees it")
+
+
+def _clear(context: typer.Context, name: str | None, by: Sequence[str]) -> None:
     from pico.diagnostics import PicoError, error
 
-    given: dict[str, float] = {}
-    for word in by:
-        key, _, value = word.partition("=")
-        try:
-            given[key] = float(value)
-        except ValueError:
-            raise PicoError(error("usage", f"`{word[:40]}` is no number by name", hint="for example up=0.1")) from None
-    said_so = ", ".join(f"{key} {value:g}" for key, value in given.items())
-    _act(context, lambda sim: sim.upset(name, **given), f"{name}: {said_so}; no camera over the bench sees it")
+    if by:
+        hint = "`pico sim upset NAME --clear` takes back all that befell a part"
+        raise PicoError(error("usage", "--clear takes no WHAT=BY", hint=hint))
+    session = Session.of(context)
+    had = session.bench().sim.clear(name)
+    whose = ", ".join(had)
+    session.show(
+        said, f"{whose} as before: nothing is hidden of it" if had else "nothing was hidden, so nothing changed"
+    )
+
+
+def _show_hidden(context: typer.Context, name: str | None = None) -> None:
+    from pico.model.request import require_component
+
+    session = Session.of(context)
+    bench = session.bench()
+    if name is not None:
+        require_component(bench.setup, name)
+    found = {one: by for one, by in bench.sim.hidden().items() if name in (None, one)}
+    session.show(hidden, bench.setup, found)
 
 
 @app.command()

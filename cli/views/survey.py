@@ -20,7 +20,8 @@ def text(survey: Survey) -> str:
         at = sorted({a for shot in one.shots for a in shot.at if not a.endswith(".exposure")})
         lines.append(f"  {one.name}" + (f"   sets {', '.join(at)}" if at else ""))
     reference = f"Compared with the morning of {survey.reference.at[:16]}." if survey.reference else ""
-    return "\n".join([*lines, reference or f"Nothing to compare with: {survey.why}.", *survey.chosen.lacks])
+    moved = [f"Since then, {one.component} {one.text}." for one in survey.moved]
+    return "\n".join([*lines, reference or "No reference yet: no morning was accepted.", *moved, *survey.chosen.lacks])
 
 
 def data(survey: Survey) -> dict[str, Any]:

@@ -60,9 +60,20 @@ class World(Protocol):
         axis reads. Light alone finds it, and homing does not bring it back. Raises PicoError where none has a zero."""
         ...
 
-    def upset(self, name: str, **by: float) -> None:
+    def upset(self, name: str, **by: float | str) -> None:
         """Let something befall a part that no camera over the bench sees, `up=0.1` or `loss=0.2`: the fields of
-        `pico.optics.unseen.Unseen`. Light alone finds it. Raises PicoError for what there is not."""
+        `pico.optics.unseen.Unseen`, or a `focal_length` [mm]. Light alone finds it. Raises PicoError for a part or a
+        change that does not exist."""
+        ...
+
+    def clear(self, name: str | None = None) -> tuple[str, ...]:
+        """Take back what is hidden of a part, by `upset` and `slip`, of every part if none is named; return the parts
+        that had something."""
+        ...
+
+    def hidden(self) -> Mapping[str, Mapping[str, float | str]]:
+        """Return what is hidden of each part of which something is, by the names that `upset` takes; a slipped axis
+        under the name of its tunable."""
         ...
 
     def wait(self, seconds: float) -> None:

@@ -191,7 +191,7 @@ class Bench(Opened):
         reference from now on. Raises PicoError where nothing can be read. A signal ends it, with all set back, before
         it does what it would have done."""
         came: list[int] = []
-        found = self.mornings.read(self.mornings.survey(), accept=accept, came=came)[1]
+        found = self.mornings.read(self.mornings.survey(accept=accept), came=came)[1]
         if came:
             signal.raise_signal(came[0])
         return found

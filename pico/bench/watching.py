@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
 from pico.bench.drifting.drift import PASSING, Drift, Drifted, LightLost, calibration_drift, drift, news, require_heal
+from pico.bench.drifting.healing import Healing
 from pico.bench.in_use import moved_by
 from pico.bench.moves import Moves
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import ExitCode, PicoError
 from pico.model.comparing.drift import drift_of
+from pico.model.lab import HealLimit
 from pico.model.observation import Observation
 from pico.model.record import record
 from pico.model.trace.report import RunReport
@@ -25,8 +27,6 @@ if TYPE_CHECKING:
     from pico.model.comparing.status import Status
     from pico.model.state import LabState
     from pico.runs.journal import JournalRecord
-
-Heal = Callable[[Drifted], RunReport | None]
 
 
 @record
@@ -128,13 +128,14 @@ class Watch:
         wrong = next((p for p in seen.problems if p.severity == "error"), None)
         return wrong.summary if wrong else calibration_drift(self.opened.setup, beyond)
 
-    def heal(self, found: Drifted) -> RunReport | None:
-        """Bring back what drifted and no operation put where it is; None where there is nothing.
+    def heal(self, found: Drifted, leave: Collection[str] = ()) -> RunReport | None:
+        """Bring back what drifted and no operation put where it is, but for some components; None where there is
+        nothing.
 
         Raises PicoError: DENIED where the lab's policy does not allow it, and where that can't or must not be run.
         """
         require_heal(self.opened.setup)
-        names = sorted({d.change.component for d in found.beyond if d.by != "operation"})
+        names = sorted({d.change.component for d in found.beyond if d.by != "operation"} - set(leave))
         if found.held or not names:
             return None
         kinds = {name: self.opened.setup.type_of(name).tunables for name in names}
@@ -147,45 +148,27 @@ class Watch:
     def watch(self, *, interval: float = 10.0, looks: int | None = None, heal: bool = False) -> Iterator[Told]:
         """Return the looks at the bench, `interval` seconds apart, without an end where `looks` is None.
 
-        `heal`: bring back what drifted, once for each thing that happens. Raises PicoError, DENIED at once where the
-        lab's policy does not allow that.
+        `heal`: bring back what drifted, each time that it does, as often as the policy's `heal_limit` allows. Raises
+        PicoError, DENIED at once where the lab's policy does not allow that.
         """
+        healing = None
         if heal:
             require_heal(self.opened.setup)
-        return _watch(self.look, self.heal if heal else None, interval, looks)
+            limit = self.opened.setup.lab.policy.heal_limit or HealLimit()
+            healing = Healing(self.heal, limit, time.monotonic)
+        return _watch(self.look, healing, interval, looks)
 
 
-def _watch(look: Callable[[], Drifted], heal: Heal | None, interval: float, looks: int | None) -> Iterator[Told]:
+def _watch(
+    look: Callable[[], Drifted], healing: Healing | None, interval: float, looks: int | None,
+    sleep: Callable[[float], None] = time.sleep,
+) -> Iterator[Told]:  # fmt: skip
     before: tuple[Drift, ...] = ()
-    tried: set[str] = set()
     for number in itertools.count() if looks is None else range(looks):
         if number:
-            time.sleep(interval)
+            sleep(interval)
         found = look()
-        note = _healed(heal, found, tried) if heal else ""
+        note = healing.after(found) if healing else ""
         fresh, right = news(before, found.beyond)
         before = found.beyond
         yield Told(found=found, fresh=tuple(fresh), right=tuple(right), note=note, first=not number)
-
-
-def _healed(heal: Heal, found: Drifted, tried: set[str]) -> str:
-    """Bring back what drifted and was not `tried` yet; return what became of it."""
-    now = {f"{d.address} {d.change.text}" for d in found.beyond if d.by != "operation"}
-    if not now - tried:
-        return ""
-    if found.held:
-        key = f"held: {found.held}"
-        said = "" if key in tried else f"not healed: {found.held}"
-        tried.add(key)
-        return said
-    tried.clear()
-    tried |= now
-    try:
-        report = heal(found)
-    except PicoError as exc:
-        return f"not healed: {exc.diagnostics[0].summary}"
-    if report is None:
-        return ""
-    if report.exit_code:
-        return f"healing {report.outcome}: run {report.run}"
-    return f"healed: {report.done} operations"

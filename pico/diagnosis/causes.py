@@ -14,6 +14,8 @@ _AXES = ("angle", "opening", "tip", "tilt")
 """Axes whose zero is looked for; where a stage's slipped, its optic has moved."""
 _STEERS = ("mirror", "plate_splitter", "beam_splitter", "prism", "grating", "roof_mirror", "parabola")
 _BENDS = ("lens", "parabola", "expander", "spatial_filter")
+_TURNS = ("isolator", "polarizer", "waveplate", "wollaston")
+"""Elements whose own direction about the beam is what they do to its polarization."""
 _DARK = ("block", "none")
 _OPEN = ("iris", "slit")
 """Elements without a surface in the light that could be dirty."""
@@ -50,8 +52,7 @@ def _causes(setup: Setup, name: str) -> Iterator[Cause]:
     kind = setup.type_of(name)
     element = kind.optics.element
     if element == "source":
-        yield Cause(name, "power", (Way("loss", "", 0.01, 0.2, 0.01),))
-        yield Cause(name, "pointing", (_turn("yaw", 6e-4, 0.02), _turn("pitch", 6e-4, 0.02)))
+        yield from _source(name)
         return
     if element in _DARK:
         return
@@ -63,13 +64,20 @@ def _causes(setup: Setup, name: str) -> Iterator[Cause]:
     if element in _STEERS:
         yield Cause(name, "turned", (_turn("yaw", 3e-4, 0.03), _turn("pitch", 3e-4, 0.03)))
     if element in (*_BENDS, *_OPEN):
-        yield Cause(name, "moved across", (_shift("left", 0.001, 0.1), _shift("up", 0.001, 0.1)))
-    if element in _BENDS:
-        yield Cause(name, "moved along", (_shift("ahead", 0.005, 0.5),))
+        yield from _across(kind, name)
+    if element in _TURNS:
+        yield from _about(kind, name)
     if element == "detector":
         yield from _detector(kind, name)
     if element not in _OPEN:
-        yield Cause(name, "dirt", (Way("loss", "", 0.002, 0.2, 0.01, one_sided=True),))
+        yield Cause(name, "dirt", (_dirt(),))
+
+
+def _source(name: str) -> Iterator[Cause]:
+    yield Cause(name, "power", (Way("power", "", 0.01, 0.2, 0.01),))
+    yield Cause(name, "pointing", (_turn("yaw", 6e-4, 0.02), _turn("pitch", 6e-4, 0.02)))
+    yield Cause(name, "polarization", (_turn("roll", 0.02, 3.0),))
+    yield Cause(name, "dirt", (_dirt(),))
 
 
 def _detector(kind: ComponentType, name: str) -> Iterator[Cause]:
@@ -80,6 +88,27 @@ def _detector(kind: ComponentType, name: str) -> Iterator[Cause]:
     yield Cause(name, "gain", (Way("gain", "", 0.002, 0.1, 0.01),))
     if "dark_current" in kind.parameters:
         yield Cause(name, "dark level", (Way("dark", "electrons/s", 1.0, 200.0, 10.0, one_sided=True),))
+
+
+def _across(kind: ComponentType, name: str) -> Iterator[Cause]:
+    """Yield what may happen to a part that light passes off its middle."""
+    yield Cause(name, "moved across", (_shift("left", 0.001, 0.1), _shift("up", 0.001, 0.1)))
+    if kind.optics.element in _BENDS:
+        yield Cause(name, "moved along", (_shift("ahead", 0.005, 0.5),))
+        if kind.number("focal_length", "mm"):
+            yield Cause(name, "focal length", (Way("focal", "", 5e-5, 0.3, 0.01),))
+
+
+def _about(kind: ComponentType, name: str) -> Iterator[Cause]:
+    """Yield what may happen to a part that has a direction about the beam."""
+    if "angle" not in kind.tunables:
+        yield Cause(name, "turned about the beam", (_turn("roll", 0.005, 3.0),))
+    if kind.optics.element == "waveplate":
+        yield Cause(name, "retardance", (Way("retardance", "waves", 2e-4, 0.1, 0.005),))
+
+
+def _dirt() -> Way:
+    return Way("loss", "", 0.002, 0.2, 0.01, one_sided=True)
 
 
 def _shift(what: str, usual: float, fault: float) -> Way:

@@ -29,16 +29,20 @@ _LEAKS = (0.1, 0.2)
 
 @dataclass(eq=False)
 class Curve:
-    """One way of a part of a bench."""
+    """One way of a part of a bench. `whole`: over the whole turn of an angle, of which powers have the harmonics up to
+    the fourth (Malus twice), and not only within REACH."""
 
     nominal: Nominal
     part: str
     way: Way
+    whole: bool = False
     _seen: dict[str, dict[str, NDArray[np.float64]] | None] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         self._stops = self.nominal.setup.type_of(self.part).number("extinction", "") or 1e5
-        if self.way.what == "leak":
+        if self.whole:
+            self._nodes = 180.0 / _NODES * (np.arange(_NODES) - _NODES // 2)
+        elif self.way.what == "leak":
             self._nodes = np.array([math.sqrt(1 / self._stops), *_LEAKS])
         else:
             angles = np.pi * (2 * np.arange(_NODES) + 1) / (2 * _NODES)
@@ -47,6 +51,8 @@ class Curve:
     @property
     def sizes(self) -> NDArray[np.float64]:
         """The sizes between which it can be asked."""
+        if self.whole:
+            return np.concatenate([side * np.arange(REACH, 90.0, 0.75) for side in (1.0, -1.0)])
         if self.way.what == "leak":
             return np.linspace(0.0, 2 * math.log(_LEAKS[-1] * math.sqrt(self._stops)), 41)
         return np.linspace(float(self._nodes.min()), float(self._nodes.max()), 81)
@@ -95,7 +101,12 @@ class Curve:
         return Step(self.part, self.way.what, round(float(size), 9))
 
     def _weights(self, size: float) -> NDArray[np.float64]:
-        """Return the weights of the nodes, after Lagrange."""
+        """Return the weights of the nodes: of a whole turn those of the trigonometric polynomial, else after
+        Lagrange."""
+        if self.whole:
+            turned = np.radians(2.0 * (size - self._nodes))
+            dirichlet: Any = (1 + 2 * sum(np.cos(k * turned) for k in range(1, _NODES // 2 + 1))) / _NODES
+            return np.asarray(dirichlet, dtype=np.float64)
         at = math.exp(size / 2) / math.sqrt(self._stops) if self.way.what == "leak" else size
         nodes = self._nodes
         others = nodes[:, None] - nodes[None, :] + np.eye(len(nodes))

@@ -20,6 +20,8 @@ SPECK = 1e-6
 """The share of the light on a camera below which a beam does not count."""
 ZERO = "zero:"
 """What a change of the zero of an axis is called, before its tunable."""
+_FACTORS = ("power", "focal")
+"""Fields of `Unseen` that are factors."""
 QUIET = ("exposure", "gain")
 """Tunables that no light depends on."""
 Numbers = Mapping[str, float]
@@ -28,8 +30,9 @@ Made = TypeVar("Made")
 
 @dataclass(frozen=True)
 class Step:
-    """A supposed change of a part by `size`: of a field of `Unseen` in its unit, but for `loss`, `gain`, `leak` (the
-    logarithm by which light, readings, and what should be stopped change), or of the zero of an axis (`zero:angle`)."""
+    """A supposed change of a part by `size`: of a field of `Unseen` in its unit, but for `loss`, `gain`, `power`,
+    `focal`, `leak` (the logarithm by which light, readings, power, focal length, and what should be stopped change), or
+    of the zero of an axis (`zero:angle`)."""
 
     part: str
     what: str
@@ -85,11 +88,14 @@ class Nominal:
                 own[tunable] = float(own.get(tunable, 0.0)) + step.size
                 continue
             was = unseen.get(step.part, SEEN)
-            unseen[step.part] = replace(was, **{step.what: getattr(was, step.what) + self._field(step)})
+            now, by = float(getattr(was, step.what)), self._field(step)
+            unseen[step.part] = replace(was, **{step.what: now * by if step.what in _FACTORS else now + by})  # type: ignore[arg-type]
         return values, unseen
 
     def _field(self, step: Step) -> float:
-        """Return by how much a field of `Unseen` changes."""
+        """Return by how much a field of `Unseen` changes, or the factor by which it does."""
+        if step.what in _FACTORS:
+            return math.exp(max(-20.0, min(20.0, step.size)))
         if step.what == "loss":
             return 1.0 - math.exp(-max(-2.0, min(20.0, step.size)))
         if step.what == "leak":  # of what should be stopped, exp(size) times as much passes as its type says
@@ -105,8 +111,7 @@ class Nominal:
         if measurable == "dark":
             return self._dark(component, shot.at, gain, dark)
         if measurable == "monitor":
-            lost = sum(s.size for s in steps if s.part == component and s.what == "loss")
-            return {measurable: math.exp(-lost)}
+            return {measurable: math.exp(sum(s.size for s in steps if s.part == component and s.what == "power"))}
         factor, steps = self._told(component, steps)
         arrivals = self.light(shot.at, steps).at(component)
         total = sum(a.power for a in arrivals)
@@ -143,15 +148,16 @@ class Nominal:
         found, rest = {"loss": 0.0, "x": 0.0, "y": 0.0}, []
         camera = "pixel_size" in self.setup.type_of(component).parameters
         for step in steps:
-            if step.what == "loss" and self._all_pass(step.part, component):
-                found["loss"] += step.size
+            if step.what in ("loss", "power") and self.all_pass(step.part, component):
+                found["loss"] += step.size if step.what == "loss" else -step.size
             elif camera and step.part == component and step.what in ("left", "up"):
                 found["x" if step.what == "left" else "y"] += 1e3 * step.size
             else:
                 rest.append(step)
         return found, tuple(rest)
 
-    def _all_pass(self, part: str, component: str) -> bool:
+    def all_pass(self, part: str, component: str) -> bool:
+        """Return whether all light that a component detects passes a part, once."""
         light = self.light()
         ends = [n for n, c in enumerate(light.crossings) if c.component == component and c.event == "detected"]
         ways = [[c.component for c in light.way(n)] + [light.crossings[n].beam.source] for n in ends]

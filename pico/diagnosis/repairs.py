@@ -14,11 +14,12 @@ if TYPE_CHECKING:
 _STEERS = ("stage_y", "stage_z", "tip", "tilt")
 
 
-def repair(setup: Setup, suspect: Suspect, values: Mapping[str, Mapping[str, Any]]) -> str:
-    """Return what brings a suspect back; `values`: of what stands, by component."""
+def repair(setup: Setup, suspect: Suspect | None, values: Mapping[str, Mapping[str, Any]]) -> str:
+    """Return what brings a suspect back, or where to look if no known cause explains what changed; `values`: of what
+    stands, by component."""
+    if suspect is None:
+        return f"{_seen(setup)} what has left the last commit"
     part, kind = suspect.part, suspect.kind
-    if not part:
-        return "`pico look` and `pico drift` show what a camera over the bench sees"
     if kind.startswith("zero of "):
         tunable = kind.removeprefix("zero of ")
         axis = setup.type_of(part).tunables[tunable].axis
@@ -29,17 +30,26 @@ def repair(setup: Setup, suspect: Suspect, values: Mapping[str, Mapping[str, Any
         NO_LIGHT: f"look at {part}: its key, its supply, its shutter",
         STOPS: f"look for what stands in the beam up to {[part, *suspect.like][-1]}; `pico beam` shows its way",
         "power": f"look at the supply of {part}, and let it warm up",
+        "focal length": f"check which lens stands in the mount of {part}",
+        "retardance": f"check which wave plate stands in the mount of {part}",
+        "polarization": f"turn {part} back about its beam",
+        "turned about the beam": f"turn {part} back in its mount",
         "dirt": _cleaned(part, suspect.like),
         "extinction": f"clean {part}; where that does not help it is worn: put in another",
         "gain": f"check the gain of {part}, and the filter before it",
         "dark level": f"close {part} to light of the room, and let it cool; `pico measure {part}.dark` shows a frame",
-        "moved along": f"put {part} back where its beam is collimated: `pico look` shows where it stands",
+        "moved along": f"put {part} back where its beam is collimated: {_seen(setup)} where it stands",
     }
     if kind in hands:
         return hands[kind]
     if kind == "moved across" and setup.type_of(part).optics.element == "detector":
         return f"fasten {part} and put it back; where it may stay, `pico morning --accept`"
     return _by_light(setup, part, values) or f"put {part} back by hand"
+
+
+def _seen(setup: Setup) -> str:
+    """Return the commands of a bench that show where its parts stand."""
+    return "`pico look` and `pico drift` show" if setup.lab.cameras else "`pico drift` shows"
 
 
 def _cleaned(part: str, like: Sequence[str]) -> str:
@@ -58,7 +68,8 @@ def _by_light(setup: Setup, part: str, values: Mapping[str, Mapping[str, Any]]) 
     goals = setup.lab.goals or {}
     steering = [n for n in values if any(t in setup.type_of(n).tunables for t in _STEERS)]
     for name, goal in goals.items():
-        if goal.reach and any(address.partition(".")[0] in (part, *steering) for address in goal.tunables):
+        wanted = goal.reach or goal.maximize or goal.minimize
+        if wanted and any(address.partition(".")[0] in (part, *steering) for address in goal.tunables):
             return f"`pico optimize {name}`"
     mover = part if part in steering else next(iter(sorted(steering)), "")
     cameras = [n for n in sorted(values) if "centroid" in setup.measurables_of(n)]

@@ -1,54 +1,81 @@
 """What most likely happened to a bench between two readings of it: causes weighed by Bayes' theorem.
 
-Quantities y (n,) were read then and now, with standard deviations; d = now - then. A ray model of the bench as it is
-known gives the derivatives J (n, k) of the quantities by the k ways of a cause. With nothing unusual,
+Quantities y (n,) were read then and now, with standard deviations; d = now - then, less what is expected to have
+changed because parts were seen to stand elsewhere. A ray model of the bench as it is known gives what a cause of size
+a (k,) does to the quantities, m(a), and its derivatives J (n, k). With nothing unusual,
 
     d ~ N(0, C),  C = diag(sigma_then^2 + sigma_now^2 + (MODEL d)^2) + sum over all ways of usual^2 j j'
 
-as every part goes astray a little by itself; a cause whose ways have the standard deviations S = diag(fault) gives
+as every part goes astray a little by itself; a cause whose ways have the standard deviations S = diag(fault) gives,
+near the size that explains most,
 
-    d ~ N(0, C + J S^2 J'),  with the size  a = S^2 J' (C + J S^2 J')^-1 d,
-                             spread  (S^-2 + J' C^-1 J)^-1
+    d - m(a) + J a ~ N(0, C + J S^2 J'),  with the size  a = S^2 J' (C + J S^2 J')^-1 (d - m(a) + J a)
 
-where a one-sided way counts only for a > 0: its evidence is multiplied by 2 Phi(a / spread). The likeliest causes, and
-all that bend (an axis that slipped near a null), are linearized anew at the size that explains most by the model
-itself, d then counted from there. The prior is QUIET for nothing unusual, OTHER for
-something that no cause explains (each quantity free by WILD of its standard deviation), and the rest shared evenly
-among parts, and of each part among its causes.
+where a one-sided way counts only for a > 0: its evidence is multiplied by 2 Phi(a / spread); of all faults the share
+`weighing.RARE` is `weighing.GREAT` times as large. The prior is QUIET for nothing unusual, OTHER for something that no
+cause explains (each quantity free by WILD of its standard deviation), and the rest shared evenly among parts, and of
+each part among its causes. Several causes are found one after the other (`several`), each by the same prior.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from pico.diagnosis.causes import Cause
-from pico.diagnosis.curves import bends
-from pico.diagnosis.modelled import Modelled, Slopes
+from pico.diagnosis.causes import Cause, Way
+from pico.diagnosis.darkness import losses
+from pico.diagnosis.modelled import Modelled
 from pico.diagnosis.nominal import Nominal
-from pico.diagnosis.quantities import Got, Quantity
-from pico.diagnosis.weighing import Weighed, alike, direction, normal, weighed
+from pico.diagnosis.quantities import FLICKER, Got, Quantity
+from pico.diagnosis.responses import Response
+from pico.diagnosis.several import Changed, Explanation, explained, together, weighed_beside
+from pico.diagnosis.weighing import Weighed, alike, direction, normal
 
 MODEL = 0.03
 """By which share a change may be another than the model gives it, one standard deviation."""
 QUIET, OTHER, WILD = 0.9, 0.005, 30.0
+CLOSE = 3.0
+"""Up to which difference of the logarithm of the odds another part explains what was read as well as the first."""
+CHANCE, UNUSUAL = 2.0, 3.0
+"""Standard deviations of their sum of squares, and of one of them, up to which changes are taken to be chance."""
+LEAST = 1e-3
+"""The least probability of a suspect that is told."""
 KEPT = 4
-"""How many causes are modelled anew, the likeliest, besides those that bend."""
-SURE = 3.0
-"""The logarithm of the odds of nothing unusual above which none is."""
+"""How many alternatives to a cause are modelled anew, the likeliest."""
+DARK = 0.3
+"""The standard deviation of the logarithm of a reading from which there may be no light."""
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A quantity then and now."""
+    """A quantity then and now; `shift`: by how much it is expected to have changed."""
 
     quantity: Quantity
     then: Got
     now: Got
+    shift: float = 0.0
+
+    @property
+    def change(self) -> float:
+        """The change beside the expected one."""
+        return self.now.value - self.then.value - self.shift
+
+    @property
+    def lowest(self) -> float:
+        """The least change that can be shown beside the expected one: a share is read no lower than its noise."""
+        if self.quantity.law != "share":
+            return -math.inf
+        noise = math.sqrt(max(0.0, self.now.sigma**2 - FLICKER**2))
+        floor = self.now.value + (min(0.0, math.log(2 * noise)) if noise > 0 else _DEEP)
+        return min(floor - self.then.value - self.shift, 0.0)
+
+
+_DEEP = -25.0
+"""The logarithm of the least share of a reading whose noise is not known."""
 
 
 @dataclass(frozen=True)
@@ -67,11 +94,15 @@ class Suspect:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What most likely happened: suspects, the likeliest first, nothing unusual among them; and each quantity's change
-    in standard deviations of what is usual, in the order given."""
+    """What most likely happened. `causes`: each thing that did, in the order in which it was found, as the suspects of
+    which one did it, the likeliest first; none where nothing unusual is likelier. `suspects`: all of them, the
+    likeliest first, with nothing unusual and what no cause explains among them. `changes`: each quantity's change in
+    standard deviations of what is usual, in the order given. `blind`: the parts about which no quantity tells."""
 
     suspects: tuple[Suspect, ...]
     changes: tuple[float, ...]
+    causes: tuple[tuple[Suspect, ...], ...] = ()
+    blind: tuple[str, ...] = ()
 
     @property
     def quiet(self) -> float:
@@ -82,53 +113,147 @@ class Verdict:
 NOTHING, UNEXPLAINED = "nothing unusual", "something else"
 
 
-def suspects(nominal: Nominal, compared: Sequence[Compared], possible: Sequence[Cause]) -> Verdict:
-    """Return which of the `possible` causes explain what changed, see above."""
+def suspects(
+    nominal: Nominal, compared: Sequence[Compared], possible: Sequence[Cause], loose: Sequence[tuple[str, Way]] = ()
+) -> Verdict:
+    """Return which of the `possible` causes explain what changed, see above. `loose`: ways of parts that may have
+    changed by their `usual` size besides, as the place of a part that was seen elsewhere is known so well only."""
     known = [c for c in compared if nominal.quantity(c.quantity) is not None]
-    known = [c for c in known if math.isfinite(c.then.value + c.now.value)]
-    d = np.array([c.now.value - c.then.value for c in known])
-    model = Modelled(nominal, tuple(c.quantity for c in known))
-    slopes = model.slopes(possible)
-    lean = [c for c in possible if any(slopes[c.part, w.what].any() for w in c.ways)]
-    usual = _usual(known, lean, slopes)
-    spread = usual + np.diag((MODEL * d) ** 2)
-    found = [weighed(c, np.stack([slopes[c.part, w.what] for w in c.ways], axis=1), spread, d) for c in lean]
-    prior, calm = _prior(lean), normal(spread, d) + math.log(QUIET)
-    for n in _worth(lean, [f.evidence + p for f, p in zip(found, prior, strict=True)], calm):
-        found[n] = model.nearer(lean[n], found[n], spread, d)
-    odds = np.array([
-        *(f.evidence + p for f, p in zip(found, prior, strict=True)),
-        calm, normal(spread * WILD**2, d) + math.log(OTHER),
-    ])  # fmt: skip
+    known = [c for c in known if math.isfinite(c.then.value + c.now.value + c.shift)]
+    model = Modelled(nominal, tuple(c.quantity for c in known), np.array([c.lowest for c in known]))
+    if any(c.quantity.law == "share" and c.now.sigma > DARK and c.change < -1 for c in known):
+        possible = (*possible, *losses(nominal, tuple(dict.fromkeys(c.part for c in possible))))
+    away = _loose(model, loose)
+    found = _weighed(known, model, model.proportional(possible), away)
+    if found[1].numbers or _far(*found):
+        found = _weighed(known, model, model.responses(possible), away)
+    what, best = found
+    groups = [_group(what, model, best, k) for k in range(len(best.numbers))]
+    told = _told(what, best, groups)
+    by = {id(c): float(x) for c, x in zip(known, what.d / np.sqrt(np.diagonal(what.usual)), strict=True)}
+    return Verdict(
+        tuple(sorted(told, key=lambda s: -s.probability)), tuple(by.get(id(c), math.nan) for c in compared),
+        tuple(groups), _blind(what, possible),
+    )  # fmt: skip
+
+
+def _weighed(
+    known: Sequence[Compared], model: Modelled, responses: Sequence[Response], away: Any
+) -> tuple[Changed, Explanation]:
+    """Return what is to be explained by causes with some responses, and the likeliest explanation. `away`: covariance
+    that is usual besides."""
+    shown = (r.shown(model.lowest) for r in responses)
+    telling = tuple(r for r in shown if r.slope.any() or (r.moved != 0).any())
+    prior = tuple(_prior([r.cause for r in telling]))
+    d = np.array([c.change for c in known])
+    what = Changed(d, _usual(known, telling) + away, telling, prior, math.log(QUIET), MODEL)
+    return what, explained(what, model)
+
+
+def _far(what: Changed, best: Explanation) -> bool:
+    """Return whether changes are so far from what is usual that causes out of proportion must be weighed, too."""
+    many = len(what.d)
+    chance = float(what.d @ np.linalg.solve(what.spread(best), what.d))
+    return chance > many + CHANCE * math.sqrt(2 * many) or bool(
+        (what.d**2 > UNUSUAL**2 * np.diagonal(what.usual)).any()
+    )
+
+
+def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]]) -> list[Suspect]:
+    """Return all suspects with their probabilities, and what else may be."""
+    first = weighed_beside(what, Explanation())
+    calm = normal(what.spread(Explanation()), what.d) + what.calm
+    other = (
+        normal(what.spread(best) * WILD**2, what.left(best))
+        + math.log(OTHER)
+        + sum(what.prior[n] for n in best.numbers)
+    )
+    quiet = [f.evidence + p for f, p in zip(first, what.prior, strict=True)]
+    if not groups:
+        odds = np.array([*quiet, calm, other])
+        shares = np.exp(odds - odds.max()) / np.exp(odds - odds.max()).sum()
+        directions = [direction(f, r.cause, what.spread(best)) for f, r in zip(first, what.responses, strict=True)]
+        causes = [r.cause for r in what.responses]
+        told = [_suspect(causes[n], f, float(shares[n]), alike(n, causes, directions)) for n, f in enumerate(first)]
+        return [*told, *_rest(float(shares[-2]), float(shares[-1]))]
+    top = np.logaddexp(best.odds, other)
+    nothing, unexplained = float(np.exp(min(0.0, calm - np.logaddexp(top, calm)))), float(np.exp(other - top))
+    if len(groups) == 1:
+        left = 1.0 - nothing - unexplained * (1 - nothing)
+        return [
+            *(replace(s, probability=s.probability * left) for s in groups[0]),
+            *_rest(nothing, unexplained * (1 - nothing)),
+        ]
+    return [*(s for group in groups for s in group), *_rest(nothing, unexplained)]
+
+
+def _rest(nothing: float, unexplained: float) -> Sequence[Suspect]:
+    return [Suspect("", NOTHING, nothing, {}, {}, {}), Suspect("", UNEXPLAINED, unexplained, {}, {}, {})]
+
+
+def _group(what: Changed, model: Modelled, best: Explanation, k: int) -> tuple[Suspect, ...]:
+    """Return the suspects of which one is the cause number k of an explanation, with the others set aside."""
+    rest = best.without(k)
+    less = together(what, None, rest, 1) if rest.numbers else Explanation()
+    found = weighed_beside(what, less)
+    others = sum(what.prior[n] for n in less.numbers)
+    odds = np.array([f.evidence + p + others + what.calm for f, p in zip(found, what.prior, strict=True)])
+    own = best.numbers[k]
+    found[own], odds[own] = best.found[k], best.odds
+    for n in sorted(range(len(odds)), key=lambda n: -odds[n])[: KEPT + 1]:
+        if n != own and n not in less.numbers and odds[n] > best.odds - 3 * CLOSE:
+            near = together(what, model, Explanation((*less.numbers, n), (*less.found, found[n]), less.beside))
+            found[n], odds[n] = near.found[-1], near.odds
+    odds = np.where([n in less.numbers for n in range(len(odds))], -math.inf, odds)
     shares = np.exp(odds - odds.max()) / np.exp(odds - odds.max()).sum()
-    directions = [direction(f.slope, c, spread) for f, c in zip(found, lean, strict=True)]
-    told = [_suspect(c, f, float(share), alike(n, lean, directions))
-            for n, (c, f, share) in enumerate(zip(lean, found, shares, strict=False))]  # fmt: skip
-    told += [
-        Suspect("", kind, float(p), {}, {}, {}) for kind, p in zip((NOTHING, UNEXPLAINED), shares[-2:], strict=True)
-    ]
-    by = {id(c): float(change) for c, change in zip(known, d / np.sqrt(np.diagonal(usual)), strict=True)}
-    changes = tuple(by.get(id(c), math.nan) for c in compared)
-    return Verdict(tuple(sorted(told, key=lambda s: -s.probability)), changes)
+    spread = what.spread(less)
+    causes = [r.cause for r in what.responses]
+    directions = [direction(f, c, spread) for f, c in zip(found, causes, strict=True)]
+    told = []
+    shares = np.where((shares < LEAST) & (np.arange(len(shares)) != own), 0.0, shares)
+    shares /= shares.sum()
+    for n in sorted(range(len(odds)), key=lambda n: (-shares[n], n != own)):
+        if not shares[n] and n != own:
+            continue
+        close = [
+            causes[m].part for m in range(len(odds)) if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part
+        ]
+        like = dict.fromkeys((*alike(n, causes, directions), *close))
+        told.append(_suspect(causes[n], found[n], float(shares[n]), tuple(_along(what, like))))
+    return tuple(told)
 
 
-def _usual(known: Sequence[Compared], possible: Sequence[Cause], slopes: Slopes) -> Any:
+def _along(what: Changed, parts: Mapping[str, None]) -> list[str]:
+    """Return parts in the order of the causes, which is that along the beam."""
+    order = list(dict.fromkeys(r.cause.part for r in what.responses))
+    return sorted(parts, key=order.index)
+
+
+def _blind(what: Changed, possible: Sequence[Cause]) -> tuple[str, ...]:
+    """Return the parts of whose possible causes none of a usual size would show."""
+    noise = np.sqrt(np.diagonal(what.usual))
+    shown = {
+        r.cause.part for r in what.responses if (np.abs(np.where(np.isfinite(r.moved), r.moved, 0)) > 3 * noise).any()
+    }
+    return tuple(p for p in dict.fromkeys(c.part for c in possible) if p not in shown)
+
+
+def _usual(known: Sequence[Compared], responses: Sequence[Response]) -> Any:
     """Return the covariance (n, n) of what changes from day to day: noise, and every part a little."""
-    spread = np.diag([c.then.sigma**2 + c.now.sigma**2 + 1e-18 for c in known])
-    for cause in possible:
-        for way in cause.ways:
-            j = slopes[cause.part, way.what]
+    spread = np.diag([c.then.sigma**2 + c.now.sigma**2 + (MODEL * c.shift) ** 2 + 1e-18 for c in known])
+    for response in responses:
+        for n, way in enumerate(response.cause.ways):
+            j = response.slope[:, n]
             spread = spread + way.usual**2 * np.outer(j, j)
     return spread
 
 
-def _worth(possible: Sequence[Cause], odds: Sequence[float], calm: float) -> list[int]:
-    """Return the causes that are modelled anew, by their numbers: the likeliest, and all of which slopes tell little;
-    none where nothing unusual is by far the likeliest."""
-    if not odds or calm - max(odds) > SURE:
-        return []
-    best = sorted(range(len(odds)), key=lambda n: -odds[n])[:KEPT]
-    return list(dict.fromkeys([*best, *(n for n, c in enumerate(possible) if any(bends(w) for w in c.ways))]))
+def _loose(model: Modelled, ways: Sequence[tuple[str, Way]]) -> Any:
+    """Return the covariance (n, n) that ways of parts make by their usual size."""
+    spread = np.zeros((len(model.wanted), len(model.wanted)))
+    for (_, way), j in zip(ways, model.slopes(ways).values(), strict=True):
+        spread += way.usual**2 * np.outer(j, j)
+    return spread
 
 
 def _prior(possible: Sequence[Cause]) -> list[float]:

@@ -207,10 +207,24 @@ class PolicyRule:
 
 
 @record
+class HealLimit:
+    """How often one component is brought back while a bench is watched: so many `times` within so many `minutes`; after
+    that it is left as it is until the watch is started again."""
+
+    times: int = 3
+    minutes: float = 10.0
+
+    def __post_init__(self) -> None:
+        if self.times < 1 or self.minutes <= 0:
+            raise ValueError("a `heal_limit` allows to heal once or more, in more than 0 minutes")
+
+
+@record
 class Policy:
     """What the bench allows. `open_beam`: arms may work, and axes that steer the beam may be homed, while a laser's
     shutter is open; else a plan closes it first. `rules`: what every plan must obey. `heal`: `pico drift --watch
-    --heal` may bring back what drifted. `ignore`: tunables (`cam.exposure`) and components that never count as drift.
+    --heal` may bring back what drifted; `heal_limit`: how often a component, three times in 10 min without it.
+    `ignore`: tunables (`cam.exposure`) and components that never count as drift.
     `merge`: what becomes of a merge where each side changed a part of what belongs together (a pose, coupled tunables):
     a warning, or with `strict` a conflict. `enclosed`: the table stands in an interlocked enclosure that no beam
     leaves; what the beam audit finds is then only told. `arming`: who may let lasers above class 2 emit; nobody,
@@ -223,6 +237,7 @@ class Policy:
     enclosed: bool | None = None
     rules: tuple[PolicyRule, ...] = ()
     heal: bool = False
+    heal_limit: HealLimit | None = None
     ignore: tuple[str, ...] = ()
     merge: Literal["warn", "strict"] = "warn"
     arming: ArmingPolicy | None = None

@@ -22,7 +22,7 @@ def emit(part: Part) -> Beam:
     wavelength = part.value("wavelength", "nm", part.number("wavelength", "nm", 632.8)) * 1e-6
     power = part.value("power", "mW", part.number("power", "mW", 1.0))
     power *= max(0.0, 1 + float(part.values.get("walk_power", 0.0)))
-    power *= 1.0 - part.unseen.loss
+    power *= (1.0 - part.unseen.loss) * part.unseen.power
     waist, quality = part.number("waist_radius", "mm", 0.5), part.number("quality", "", 1.0)
     angle = part.number("polarization", "deg", 0.0)
     across = part.number("polarization_ratio", "", math.inf)

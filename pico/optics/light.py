@@ -27,7 +27,7 @@ from pico.optics.geometry import Event
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
 from pico.optics.part import Element, Met, Part, Straying
-from pico.optics.unseen import SEEN, Unseen
+from pico.optics.unseen import SEEN, Unseen, as_it_is
 
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
@@ -206,7 +206,7 @@ def is_dark(laser: Mapping[str, object]) -> bool:
 
 
 def _part(setup: Setup, name: str, pose: Pose, values: Values, unseen: Unseen) -> Part:
-    own, kind = values.get(name, {}), setup.type_of(name)
+    own, kind = values.get(name, {}), as_it_is(setup, name, unseen)
     # an iris stops what is beside its opening itself: its leaves are no housing
     seen = {key: value for key, value in own.items() if key != "opening"}
     return Part(name, kind, own, pose, optic_of(kind, name, pose, seen, unseen), unseen)

@@ -7,11 +7,13 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.model.catalog import ComponentType, with_parameters
 from pico.model.record import record
 
 if TYPE_CHECKING:
     from pico.geometry.seat import Seat
     from pico.model.pose import Pose
+    from pico.model.setup import Setup
 
 Vector = tuple[float, float, float]
 
@@ -24,6 +26,10 @@ class Unseen:
     `loss`: the share of the light that dirt on it stops. `leak`: of a polarizer, the share of what it should stop that
     passes besides. `gain`: of a detector, what it reads for the light that there is, as a factor. `dark`: what it reads
     besides without light, of a camera in electrons a pixel and second, else in the unit of its reading.
+
+    `power`: of a laser, the factor by which its power differs. `focal`: of a lens, the factor by which its focal length
+    differs; `retardance`: of a wave plate, by how many wavelengths its retardance differs. `optic`: the component type
+    whose optic stands in its mount; empty if it is its own.
     """
 
     ahead: float = 0.0
@@ -36,6 +42,10 @@ class Unseen:
     leak: float = 0.0
     gain: float = 1.0
     dark: float = 0.0
+    power: float = 1.0
+    focal: float = 1.0
+    retardance: float = 0.0
+    optic: str = ""
 
     @property
     def displaced(self) -> bool:
@@ -76,3 +86,23 @@ class Unseen:
 
 SEEN = Unseen()
 """A component that is as it is seen."""
+
+
+_OF_THE_MOUNT = ("clear_diameter", "diameter")
+"""Parameters that stay those of the mount when its optic is swapped."""
+
+
+def as_it_is(setup: Setup, name: str, unseen: Unseen) -> ComponentType:
+    """Return the type of a component with the parameters that its optic truly has; raises KeyError for a component that
+    the inventory does not have, and for an optic that the catalog does not."""
+    kind = setup.type_of(name)
+    if not unseen.optic and unseen.focal == 1.0 and not unseen.retardance:
+        return kind
+    if unseen.optic:
+        mount = {k: v for k, v in kind.parameters.items() if k in _OF_THE_MOUNT}
+        kind = replace(kind, parameters={**setup.catalog[unseen.optic].parameters, **mount})
+    if unseen.focal != 1.0 and (focal := kind.number("focal_length", "mm")):
+        kind = with_parameters(kind, {"focal_length": f"{focal * unseen.focal!r} mm"})
+    if unseen.retardance and (waves := kind.number("retardance", "")) is not None:
+        kind = with_parameters(kind, {"retardance": waves + unseen.retardance})
+    return kind

@@ -12,7 +12,7 @@ from benches import sim
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.backends.sim.hand import upset
+from pico.backends.sim.hand import clear, hidden, slip, upset
 from pico.backends.sim.lighted import light_on
 from pico.backends.sim.readings import Table, measurer_of
 from pico.backends.sim.store import load_world, save_world
@@ -22,6 +22,7 @@ from pico.manifest.load import load_folder
 from pico.model.observation import ObservedValue
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.optics.upsets import parse
 from pico.resources import labs_dir
 
 
@@ -135,10 +136,61 @@ def test_what_befell_a_part_adds_up(setup: Setup, lit: World) -> None:
         ("lx_100", {"gain": 2.0}, "it is no detector"),
         ("lx_100", {"leak": 0.1}, "it is no polarizer"),
         ("lx_1", {"up": 0.1}, "no component `lx_1`"),
+        ("lx_100", {"power": 0.5}, "it is no laser"),
+        ("lx_100", {"optic": "half_wave_plate"}, "does not fit in the mount of lx_100"),
+        ("lx_100", {"optic": "plano_convex_155"}, "this lab has no type"),
+        ("p1", {"focal_length": 100.0}, "its type states none"),
     ],
 )
 def test_what_cannot_befall_a_part_is_refused(
-    setup: Setup, tmp_path: Path, name: str, by: dict[str, float], said: str
+    setup: Setup, tmp_path: Path, name: str, by: dict[str, float | str], said: str
 ) -> None:
     with pytest.raises(PicoError, match=said):
         sim(setup, tmp_path).world.upset(name, **by)
+
+
+def test_a_laser_that_loses_power_shows_it_in_its_monitor_and_dirt_on_its_exit_does_not(
+    setup: Setup, lit: World
+) -> None:
+    reader, before = measurer_of(setup, "laser", "monitor"), arrival(setup, lit)[2]
+    assert reader is not None
+
+    def monitor(world: World) -> float:
+        value = reader.read(Table(setup, Path(), world), "laser", "monitor").value
+        assert isinstance(value, float)
+        return value
+
+    weak, dirty = upset(setup, lit, "laser", {"power": 0.7}), upset(setup, lit, "laser", {"loss": 0.3})
+    assert arrival(setup, weak)[2] == pytest.approx(0.7 * before) == pytest.approx(arrival(setup, dirty)[2])
+    assert monitor(weak) == pytest.approx(0.7 * monitor(lit), rel=0.02)
+    assert monitor(dirty) == pytest.approx(monitor(lit), rel=0.02)
+
+
+def test_another_focal_length_and_another_lens_in_the_mount_bend_the_beam_alike(setup: Setup, lit: World) -> None:
+    aside = upset(setup, lit, "lx_100", {"up": 0.1})
+    longer = arrival(setup, upset(setup, aside, "lx_100", {"focal_length": 125.0}))
+    other = arrival(setup, upset(setup, aside, "lx_100", {"optic": "plano_convex_125"}))
+    assert longer[1] == pytest.approx(0.1 * 260.0 / 125.0, rel=0.05)
+    assert other[1] == pytest.approx(longer[1], rel=0.02)
+    assert arrival(setup, upset(setup, aside, "lx_100", {"focal_length": 100.0})) == arrival(setup, aside)
+
+
+def test_accidents_are_listed_and_taken_back(setup: Setup, lit: World, tmp_path: Path) -> None:
+    one = upset(setup, lit, "lx_100", {"focal_length": 150.0, "up": 0.1})
+    both = upset(setup, slip(setup, one, "p1", "angle", 2.0), "ly_200", {"optic": "plano_convex_150_stage"})
+    assert hidden(setup, both) == {
+        "ly_200": {"optic": "plano_convex_150_stage"}, "lx_100": {"up": 0.1, "focal_length": pytest.approx(150.0)},
+        "p1": {"angle": 2.0},
+    }  # fmt: skip
+    save_world(tmp_path, both)
+    assert load_world(setup, tmp_path)[0] == both
+    assert hidden(setup, clear(both, "lx_100")).keys() == {"ly_200", "p1"}
+    assert clear(both) == lit
+
+
+def test_changes_are_given_in_words() -> None:
+    assert parse(["power=-30%", "gain=1.1", "loss=20%", "up=-0.1", "optic=plano_convex_125"]) == {
+        "power": pytest.approx(0.7), "gain": 1.1, "loss": 0.2, "up": -0.1, "optic": "plano_convex_125",
+    }  # fmt: skip
+    with pytest.raises(PicoError, match="no number by name"):
+        parse(["up=much"])

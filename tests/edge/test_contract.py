@@ -348,6 +348,10 @@ def test_the_simulated_world_is_changed_as_by_a_hand(bench: Bench) -> None:
     assert bench.observe().components == seen.components
     with pytest.raises(PicoError, match="it is no detector"):
         bench.sim.upset("ly_150", gain=2.0)
+    assert bench.sim.hidden() == {"ly_150": {"up": 0.1, "loss": pytest.approx(0.2)}, "p2": {"angle": 2.0}}
+    assert bench.sim.clear("ly_150") == ("ly_150",)
+    bench.sim.upset("ly_150", optic="plano_convex_100")
+    assert bench.sim.clear() == ("ly_150", "p2") and bench.sim.hidden() == {}
     bench.sim.wait(3600.0)
     assert bench.observe().time == pytest.approx(seen.time + 3600.0)
     bench.sim.reset()

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 
 from pico.backends.sim.world import World, WorldBody, footprints, initial_value
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
@@ -14,7 +13,8 @@ from pico.model.observation import ObservedRobot, ObservedValue
 from pico.model.pose import Pose, wrap
 from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
-from pico.optics.unseen import Unseen
+from pico.optics import upsets
+from pico.optics.unseen import SEEN
 
 _TOUCH = 1e-6  # mm: parts may touch
 
@@ -25,7 +25,7 @@ def nudge(setup: Setup, world: World, name: str, *, dx: float = 0.0, dy: float =
     A missing part is put to its home first; a held one is taken from the gripper. Raises PicoError for a part that
     the world does not have, and where the part would stand in another one or beside the table.
     """
-    body = _body(world, name)
+    body = body_of(world, name)
     start = body.pose or place_of(setup, home_state(setup), name)[1]
     goal = Pose(start.x + dx, start.y + dy, wrap(start.yaw + dyaw))
     problems = list(_obstacles(setup, world, name, goal))
@@ -36,7 +36,7 @@ def nudge(setup: Setup, world: World, name: str, *, dx: float = 0.0, dy: float =
 
 def remove(setup: Setup, world: World, name: str) -> World:
     """Return the world after a hand took `name` off the table; raises PicoError for a part that is not there."""
-    if _body(world, name).presence == "missing":
+    if body_of(world, name).presence == "missing":
         hint = f"`pico sim nudge {name}` puts it back to its home"
         raise PicoError(error("missing", f"{name} is not on the table", hint=hint, address=name))
     return _released(world, name).with_body(name, presence="missing", pose=None, free=None)
@@ -48,7 +48,7 @@ def slip(setup: Setup, world: World, name: str, tunable: str, by: float) -> Worl
 
     Raises PicoError for a part or a tunable that there is not, and for one that nothing moves.
     """
-    body, kinds = _body(world, name), setup.type_of(name).tunables
+    body, kinds = body_of(world, name), setup.type_of(name).tunables
     kind = kinds.get(tunable)
     if kind is None:
         hint = did_you_mean(tunable, kinds) or "it has none"
@@ -61,48 +61,34 @@ def slip(setup: Setup, world: World, name: str, tunable: str, by: float) -> Worl
     return world.with_body(name, offsets={**body.offsets, tunable: body.offsets.get(tunable, 0.0) + by})
 
 
-def upset(setup: Setup, world: World, name: str, by: Mapping[str, float]) -> World:
-    """Return the world after something befell a part that no camera over the bench sees: `by` are fields of
-    `pico.optics.unseen.Unseen`, which add to what befell it before; losses and gains multiply.
-
-    Raises PicoError for a part or a field that there is not, and for a number that is none of it.
-    """
-    body = _body(world, name)
-    known = [one.name for one in fields(Unseen)]
-    problems = []
-    for key, value in by.items():
-        if key not in known:
-            hint = did_you_mean(key, known) or f"known: {', '.join(known)}"
-            problems.append(error("unseen", f"nothing unseen of a part is called `{key}`", hint=hint, address=name))
-        elif not math.isfinite(value) or (key in _SHARES and not 0 <= value < 1) or (key == "gain" and value <= 0):
-            wanted = (
-                "a share from 0 to below 1" if key in _SHARES else "a factor above 0" if key == "gain" else "finite"
-            )
-            problems.append(error("unseen", f"`{key}` of {name} is {value:g}: it is {wanted}", address=name))
-        elif wrong := _not_of(setup, name, key):
-            problems.append(error("unseen", f"{name} has no `{key}`: {wrong}", address=name))
-    if problems:
-        raise PicoError(problems)
-    was = body.unseen or Unseen()
-    now = {key: _joined(key, getattr(was, key), value) for key, value in by.items()}
-    return world.with_body(name, unseen=replace(was, **now))
+def upset(setup: Setup, world: World, name: str, by: Mapping[str, float | str]) -> World:
+    """Return the world after something befell a part that no camera over the bench sees, see `pico.optics.upsets`;
+    raises PicoError for a part or a change that does not exist, and for a value that it cannot have."""
+    now = upsets.upset(setup, name, body_of(world, name).unseen or SEEN, by)
+    return world.with_body(name, unseen=None if now == SEEN else now)
 
 
-_SHARES = ("loss", "leak")
+def clear(world: World, name: str | None = None) -> World:
+    """Return the world after what is hidden of a part, by `upset` and `slip`, was taken back; of every part if none is
+    named. Raises PicoError for a part that the world does not have."""
+    for one in [name] if name is not None else [*world.components]:
+        if (body := body_of(world, one)).unseen is not None or body.offsets:
+            world = world.with_body(one, unseen=None, offsets={})
+    return world
 
 
-def _not_of(setup: Setup, name: str, key: str) -> str:
-    """Return why nothing of that name befalls a part; empty where it may."""
-    element = setup.type_of(name).optics.element
-    if key in ("gain", "dark") and element != "detector":
-        return "it is no detector"
-    return "it is no polarizer" if key == "leak" and element != "polarizer" else ""
-
-
-def _joined(key: str, was: float, by: float) -> float:
-    if key == "gain":
-        return was * by
-    return 1 - (1 - was) * (1 - by) if key == "loss" else was + by
+def hidden(setup: Setup, world: World) -> dict[str, dict[str, float | str]]:
+    """Return what is hidden of each part of which something is, by the names that `upset` takes; a slipped axis under
+    the name of its tunable."""
+    found = {
+        name: {
+            **upsets.said(setup, name, body.unseen or SEEN),
+            **{tunable: by for tunable, by in body.offsets.items() if by},
+        }
+        for name, body in sorted(world.components.items())
+        if name in setup.lab.inventory
+    }
+    return {name: by for name, by in found.items() if by}
 
 
 def power_cycle(setup: Setup, world: World) -> World:
@@ -125,7 +111,8 @@ def _powered_up(kind: Tunable, live: ObservedValue) -> ObservedValue:
     return ObservedValue(value=initial_value(kind))
 
 
-def _body(world: World, name: str) -> WorldBody:
+def body_of(world: World, name: str) -> WorldBody:
+    """Return a component of the world; raises PicoError for one that it does not have."""
     try:
         return world.components[name]
     except KeyError:

@@ -113,6 +113,11 @@ def _pose(data: Mapping[str, Any]) -> Pose:
     return Pose(_number(data["x"]), _number(data["y"]), _number(data["yaw"]))
 
 
+def _unseen(data: Mapping[str, Any]) -> Unseen:
+    sizes = {k: _number(v) for k, v in data.items() if k != "optic"}
+    return Unseen(optic=str(data.get("optic", "")), **sizes)
+
+
 def _body(data: Mapping[str, Any]) -> WorldBody:
     presence, free = data["presence"], data.get("free")
     if presence not in ("seen", "missing", "held", "toppled"):
@@ -128,7 +133,7 @@ def _body(data: Mapping[str, Any]) -> WorldBody:
         seat=_seat(data["seat"]) if data.get("seat") else None,
         values={k: _value(v) for k, v in data["values"].items()},
         offsets={k: _number(v) for k, v in data.get("offsets", {}).items()},
-        unseen=Unseen(**{k: _number(v) for k, v in data["unseen"].items()}) if data.get("unseen") else None,
+        unseen=_unseen(data["unseen"]) if data.get("unseen") else None,
     )
 
 

@@ -9,7 +9,7 @@ from typing import Any
 from pico.backends.sim.bodies import body_placement
 from pico.backends.sim.cameras import bump
 from pico.backends.sim.faults import faults_of, parse, save_faults
-from pico.backends.sim.hand import nudge, power_cycle, remove, slip, upset
+from pico.backends.sim.hand import clear, hidden, nudge, power_cycle, remove, slip, upset
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.backends.world import Held
@@ -93,11 +93,26 @@ class SimulatedTable:
         require_component(self._setup, name)
         self._change(f"sim slip {name}.{tunable}", lambda world: slip(self._setup, world, name, tunable, by))
 
-    def upset(self, name: str, **by: float) -> None:
+    def upset(self, name: str, **by: float | str) -> None:
         """Let something befall a part that no camera over the bench sees, `up=0.1` or `loss=0.2`: the fields of
-        `pico.optics.unseen.Unseen`. Light alone finds it. Raises PicoError for what there is not."""
+        `pico.optics.unseen.Unseen`, or a `focal_length` [mm]. Light alone finds it. Raises PicoError for a part or a
+        change that does not exist."""
         require_component(self._setup, name)
         self._change(f"sim upset {name}", lambda world: upset(self._setup, world, name, by))
+
+    def clear(self, name: str | None = None) -> tuple[str, ...]:
+        """Take back what is hidden of a part, by `upset` and `slip`, of every part if none is named; return the parts
+        that had something."""
+        if name is not None:
+            require_component(self._setup, name)
+        had = tuple(one for one in self.hidden() if name in (None, one))
+        self._change("sim upset --clear", lambda world: clear(world, name))
+        return had
+
+    def hidden(self) -> Mapping[str, Mapping[str, float | str]]:
+        """Return what is hidden of each part of which something is, by the names that `upset` takes; a slipped axis
+        under the name of its tunable."""
+        return hidden(self._setup, self._world())
 
     def wait(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s], in which the world does what it does by itself."""

@@ -49,9 +49,11 @@ class Readings:
 
 
 def readings_of(
-    root: Path, shots: Sequence[Shot], dark: Sequence[str], report: RunReport, events: Sequence[Event]
+    root: Path, shots: Sequence[Shot], dark: Sequence[str], report: RunReport, events: Sequence[Event],
+    steady: Mapping[str, float],
 ) -> Readings:  # fmt: skip
-    """Return what a run gave of `shots`, and of frames in the `dark` of cameras, whose addresses these are."""
+    """Return what a run gave of `shots`, and of frames in the `dark` of cameras, whose addresses these are. `steady`:
+    by component the share by which an instrument is always wrong, which is no noise."""
     from pico.model.measurement import measurement_from_json
 
     found: dict[str, Numbers] = {}
@@ -62,19 +64,19 @@ def readings_of(
     for shot, one in zip(shots, taken, strict=False):
         if "measurable" in one:
             measured = measurement_from_json(one)
-            found[shot.key] = _numbers(root, measured)
+            found[shot.key] = _numbers(root, measured, steady.get(shot.address.partition(".")[0], 0.0))
             if measured.unknown:
                 unknown[shot.key] = measured.unknown
         else:
             unknown[shot.key] = str(one.get("unknown", ""))
     for address, measurement in report.measurements.items():
         if address.endswith(DARK):
-            found[Shot(address).key] = _numbers(root, measurement)
+            found[Shot(address).key] = _numbers(root, measurement, 0.0)
     whole = len(taken) == len(shots) and report.outcome == "done"
     return Readings(found, unknown, not whole)
 
 
-def _numbers(root: Path, found: Measurement) -> Numbers:
+def _numbers(root: Path, found: Measurement, steady: float) -> Numbers:
     """Return the numbers of a measurement by name."""
     if found.measurable == "dark" and found.array is not None:
         return _dark(root, found)
@@ -88,7 +90,8 @@ def _numbers(root: Path, found: Measurement) -> Numbers:
         return own
     if isinstance(found.value, int | float) and not isinstance(found.value, bool):
         sigma_of = 0.0 if found.sigma is None or isinstance(found.sigma, Mapping) else float(found.sigma)
-        return {found.measurable: (float(found.value), sigma_of)}
+        noise = sigma_of**2 - (steady * found.value) ** 2
+        return {found.measurable: (float(found.value), math.sqrt(noise) if noise > 0 else sigma_of)}
     return {}
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,10 +12,9 @@ from pico.diagnosis.quantities import Got, Quantity
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.edge.network.remotes import Place
-from pico.model.diff import value_distance
+from pico.model.diff import Change, describe_move, describe_value, value_distance
 from pico.model.pose import Pose, angle_between
 from pico.model.record import Format, as_json
-from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.diagnosis.nominal import Nominal
@@ -23,8 +22,8 @@ if TYPE_CHECKING:
 FORMAT = Format("pico.mornings")
 MOST = 20
 """References that are kept."""
-_PASSING = ("exposure", "illumination")
-"""Tunables that a morning sets as it wants them."""
+_PASSING = ("illumination",)
+"""Tunables that no reading depends on."""
 
 
 @dataclass(frozen=True)
@@ -65,40 +64,42 @@ def keep(place: Place, reference: Reference) -> None:
     write_whole(_path(place), data, what=what, code="morning", folders=True)
 
 
-def reference_for(place: Place, nominal: Nominal) -> tuple[Reference | None, str]:
-    """Return the last reference that was taken with the bench as it stands; else why there is none."""
-    kept = references_in(place)
-    for one in reversed(kept):
-        if not _differs(one, nominal):
-            return one, ""
-    if not kept:
-        return None, "no morning was recorded before"
-    return None, f"the bench stands otherwise than on {kept[-1].at[:16]}: {_differs(kept[-1], nominal)}"
+def reference_for(place: Place, nominal: Nominal) -> tuple[Reference | None, tuple[Change, ...]]:
+    """Return the last reference that was taken with the bench as it stands; else the last of those from which it
+    differs least, and how it differs. None where none is kept."""
+    best: tuple[Reference | None, tuple[Change, ...]] = (None, ())
+    for one in reversed(references_in(place)):
+        differs = differences(one, nominal)
+        if best[0] is None or len(differs) < len(best[1]):
+            best = one, differs
+    return best
 
 
 def _path(place: Place) -> Path:
     return place.folder / "mornings.json"
 
 
-def _differs(one: Reference, nominal: Nominal) -> str:
-    """Return what of a bench is not as it was for a reference, in words; empty where all is."""
-    for name in sorted({*one.poses, *nominal.poses}):
-        if name not in one.poses or name not in nominal.poses:
-            return f"{name} {'is not there' if name in one.poses else 'is there'}"
-        then, now = one.poses[name], nominal.poses[name]
-        tolerance = nominal.setup.type_of(name).pose.tolerance
-        if then.distance(now) > tolerance.position or abs(angle_between(then.yaw, now.yaw)) > tolerance.yaw:
-            return f"{name} stood at {then}, and now at {now}"
-        if said := _set_otherwise(nominal.setup, name, one.values.get(name, {}), nominal.values.get(name, {})):
-            return said
-    return ""
+def differences(one: Reference, nominal: Nominal) -> tuple[Change, ...]:
+    """Return what of a bench stands or is set otherwise than for a reference, beyond tolerance. A part that one of the
+    two has not seen has no pose there."""
+    return tuple(found for name in sorted({*one.poses, *nominal.poses}) for found in _of_part(one, nominal, name))
 
 
-def _set_otherwise(setup: Setup, name: str, then: Mapping[str, Any], now: Mapping[str, Any]) -> str:
-    for tunable, about in setup.type_of(name).tunables.items():
-        before, live = then.get(tunable), now.get(tunable)
+def _of_part(one: Reference, nominal: Nominal, name: str) -> Iterator[Change]:
+    then, now = one.poses.get(name), nominal.poses.get(name)
+    if then is None or now is None:
+        text = f"is not seen; it stood at {then}" if now is None else f"stands at {now}; it was not seen"
+        yield Change(component=name, tunable="pose", before=as_json(then), after=as_json(now), text=text)
+        return
+    kind = nominal.setup.type_of(name)
+    tolerance, turned = kind.pose.tolerance, abs(angle_between(then.yaw, now.yaw))
+    if then.distance(now) > tolerance.position or turned > tolerance.yaw:
+        text = f"{describe_move(None, then, None, now)}: it stood at {then} and stands at {now}"
+        yield Change(component=name, tunable="pose", before=as_json(then), after=as_json(now), text=text)
+    for tunable, about in kind.tunables.items():
+        before, live = one.values.get(name, {}).get(tunable), nominal.values.get(name, {}).get(tunable)
         if tunable in _PASSING or before == live:
             continue
         if before is None or live is None or value_distance(about, live, before) > about.tolerance:
-            return f"{name}.{tunable} was {before}, and is {live}"
-    return ""
+            text = f"{tunable} was set {describe_value(about, before, live)}"
+            yield Change(component=name, tunable=tunable, before=before, after=live, text=text)

@@ -136,9 +136,18 @@ class RemoteWorld:
         """Let the true value of a tunable be `by` more, in its unit, than its axis reads."""
         self._line.call("world.slip", name, tunable, by)
 
-    def upset(self, name: str, **by: float) -> None:
+    def upset(self, name: str, **by: float | str) -> None:
         """Let something befall a part that only light finds."""
         self._line.call("world.upset", name, by)
+
+    def clear(self, name: str | None = None) -> tuple[str, ...]:
+        """Take back what is hidden of a part, of every part if none is named; return the parts that had something."""
+        return tuple(self._line.call("world.clear", name))
+
+    def hidden(self) -> Mapping[str, Mapping[str, float | str]]:
+        """Return what is hidden of each part of which something is."""
+        found: Mapping[str, Mapping[str, float | str]] = self._line.call("world.hidden")
+        return found
 
     def wait(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s]."""

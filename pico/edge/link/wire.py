@@ -85,7 +85,9 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "world.true_arms": ((), dict[str, ArmOffsets]),
     "world.remove": ((str,), None),
     "world.slip": ((str, str, float), None),
-    "world.upset": ((str, dict[str, float]), None),
+    "world.upset": ((str, dict[str, float | str]), None),
+    "world.clear": ((str | None,), tuple[str, ...]),
+    "world.hidden": ((), dict[str, dict[str, float | str]]),
     "world.wait": ((float,), None),
     "world.power_cycle": ((), None),
     "world.person": ((bool,), None),
@@ -95,7 +97,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
 STREAMS = frozenset({"events", "live"})
 TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "hold", "resolve"}) | (
     {call for call in CALLS if call.startswith("world.")}
-    - {"world.placements", "world.true_cameras", "world.true_arms"}
+    - {"world.placements", "world.true_cameras", "world.true_arms", "world.hidden"}
 )
 """Calls that take the bench, as only the worktree may that it is attached to."""
 HOLDS = frozenset({"execute", "finish", "goes_on", "leave", "jog"})

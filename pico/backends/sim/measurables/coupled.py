@@ -37,6 +37,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     if why:
         return Reading(None, unknown=f"what {component} takes is not known: {why}")
     power = sum(coupled(part, a.beam) * a.power for a in arrivals) * part.number("transmission", "", 1.0)
+    power = power * part.unseen.gain + part.unseen.dark
     least = part.number("least_power", "mW", 1e-6)
     noise = np.random.default_rng([table.world.seed, round(table.world.clock * 1000), *component.encode()])
     sigma = math.hypot(least, NOISE * power)

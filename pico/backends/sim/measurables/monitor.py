@@ -29,7 +29,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     power = float(values.get("power", kind.number("power", "mW") or 0.0))
     power *= max(0.0, 1 + float(values.get("walk_power", 0.0))) if values.get("emission", True) else 0.0
     hidden = table.world.components[component].unseen
-    power *= 1.0 - hidden.loss if hidden is not None else 1.0
+    power *= hidden.power if hidden is not None else 1.0  # dirt on the exit lies behind the pick-off
     noise = np.random.default_rng([table.world.seed, round(table.world.clock * 1000), *component.encode()])
     sigma = math.hypot(LEAST, NOISE * power)
     return Reading(power + sigma * float(noise.standard_normal()), sigma=sigma, saturated="")
