@@ -7,6 +7,7 @@ from typing import Any
 from pico.model.record import as_json
 from pico.model.trace.report import Committed
 
+from .capture import aligned
 from .diff import lines
 from .style import count, on_bench, paint
 
@@ -17,7 +18,10 @@ def text(made: Committed) -> str:
     head = f"[{branch} {paint('yellow', made.commit[:7])}] {made.message.splitlines()[0]}"
     block = [head, *lines(made.changes)]
     if made.captured:
-        block.append(f"{count(len(made.captured), 'tunable')} taken from the bench.")
+        found = sum(len(addresses) for addresses in (made.aligned or {}).values())
+        if len(made.captured) > found:
+            block.append(f"{count(len(made.captured) - found, 'tunable')} taken from the bench.")
+        block += aligned(made.captured, made.aligned)
     if not made.realized:
         block.append("Nobody compared this state with the bench, and the commit says so: `pico verify` does.")
     elif made.runs:

@@ -9,21 +9,34 @@ from pico.bench.drifting.drift import Drift, Drifted, LightLost
 from pico.model.record import as_json
 from pico.model.state import is_reference, reference_from_json
 
+from .by_light import excepted
 from .diff import lines
 from .style import ago, count, listed, paint, wrap
 
 
 def text(found: Drifted) -> str:
     """Return what drifted beyond tolerance, and how much within it."""
-    beyond, near, head = found.beyond, len(found.within), found.head
+    beyond, head = found.beyond, found.head
+    kept = [d.change for d in found.within if d.change.aligned]
+    near = len(found.within) - len(kept)
     within = f"{count(near, 'tunable')} {'deviates' if near == 1 else 'deviate'} within tolerance." if near else ""
     ignored = f"Ignored by the policy of the lab: {listed(found.ignored)}." if found.ignored else ""
     light = [line for one in found.light or () for line in _light(one)]
     if not beyond:
-        title = f"No part has left {head}, and light is lost:" if light else f"No drift: the bench is as {head} says."
+        title = (
+            f"No part has left {head}, and light is lost:"
+            if light
+            else f"No drift: the bench is as {head} says{excepted(kept)}."
+        )
         return "\n".join(x for x in (title, *light, within, ignored) if x)
     title = f"{count(len(beyond), 'tunable')} of the bench {'has' if len(beyond) == 1 else 'have'} left {head}:"
-    rest = [*([within] if within else []), *([ignored] if ignored else []), _hint(found)]
+    stays = excepted(kept).removeprefix(", except ")
+    rest = [
+        *([f"No drift: {stays}."] if kept else []),
+        *([within] if within else []),
+        *([ignored] if ignored else []),
+        _hint(found),
+    ]
     entries = [line for one in _ordered(beyond) for line in _entry(one)]
     return "\n".join([title, "", *entries, "", *light, *rest])
 

@@ -17,7 +17,7 @@ from pico.model.primitive import OWN
 from pico.model.record import as_json
 from pico.model.state import goals_of, state_from_json
 
-from .by_light import unfound
+from .by_light import excepted, unfound
 from .diff import brief
 from .style import ago, columns, count, listed, paint, place, seconds, wide, width, wrap
 
@@ -77,7 +77,10 @@ def operations(plan: Plan) -> list[str]:
     """Return one line an operation, two where the reason is long."""
     changes = {op.id: change_of(plan, op) for op in plan.operations}
     moving, several = any(op.robot for op in plan.operations), len(arms(plan)) > 1
-    rows = [[*_cells(op, changes[op.id], several), _why(op, changes[op.id], moving, several)] for op in plan.operations]
+    rows = [
+        [*_cells(op, changes[op.id], several), _why(op, changes[op.id], plan.target.name, moving, several)]
+        for op in plan.operations
+    ]
     lines = columns([row[:-1] for row in rows], indent="  ")
     whole = []
     room = max((width(line) for line in lines), default=0)
@@ -167,10 +170,10 @@ def timelines(plan: Plan) -> list[str]:
     return columns(rows, indent="  ")
 
 
-def _why(op: Operation, change: Change | None, moving: bool, several: bool) -> str:
+def _why(op: Operation, change: Change | None, target: str, moving: bool, several: bool) -> str:
     said = reason(op.reason, change)
-    if change and op.primitive == "set" and said == change.text:
-        said = ""  # it stands beside it already
+    if (change and op.primitive == "set" and said == change.text) or not said:  # it stands beside it already
+        said = {"changed": f"as {target} says", "asked": "as asked"}.get(op.reason.kind, "")
     beside = "beside the arm" if moving and not op.robot and op.reason.kind not in ("interlock", "align") else ""
     beside = beside if op.kind.drives and not several else ""
     return ", ".join(part for part in (said, beside) if part)
@@ -195,8 +198,8 @@ def reason(why: Reason, change: Change | None = None) -> str:
 
 
 def _tolerated(plan: Plan) -> list[str]:
-    near = [c for c in plan.changes if c.tolerated]
-    rows = [[f"  = {_name(c)}", _near(c)] for c in near[:SHOWN_TOLERATED]]
+    kept, near = ([c for c in plan.changes if c.tolerated and bool(c.aligned) is light] for light in (True, False))
+    rows = [[f"  = {_name(c)}", _near(c)] for c in (*kept, *near[:SHOWN_TOLERATED])]
     more = len(near) - SHOWN_TOLERATED
     lines = columns(rows) + ([f"    and {more} more within tolerance"] if more > 0 else [])
     return [paint("dim", line) for line in lines] + ([""] if lines else [])
@@ -205,8 +208,11 @@ def _tolerated(plan: Plan) -> list[str]:
 def _near(change: Change) -> str:
     before, after = change.before, change.after
     if change.aligned:
-        when = f" {ago(change.aligned.at)}" if change.aligned.at else ""
-        return f"{change.text}: within its trim, stays; {change.aligned.goal} aligned{when}"
+        number, goal = place(after), change.aligned.goal
+        why = (
+            f"{goal} was met there {ago(change.aligned.at)}" if change.aligned.at else f"{goal} was not met at {number}"
+        )
+        return f"kept at {change.text.replace(f' → {number}', '', 1)}, not {number}: {why}"
     if not isinstance(before, dict) or not isinstance(after, dict):
         return f"{change.text}: within tolerance, stays"
     away = math.hypot(after["x"] - before["x"], after["y"] - before["y"])
@@ -227,7 +233,7 @@ def tally(operations: Sequence[Operation]) -> str:
 
 def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
     if not plan.operations:
-        return _idle(plan, beside)
+        return [*_idle(plan, beside), *_spoils(plan)]
     parts = [tally(plan.operations)]
     if any(op.kind.carries for op in plan.operations):
         parts.append(_staging(plan))
@@ -250,18 +256,17 @@ def _summary(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
 
 
 def _spoils(plan: Plan) -> list[str]:
-    """Return which goals a plan leaves unaligned, in the order in which they are to be redone, how old they are, and
-    what redoing them takes."""
+    """Return which goals are to be aligned again after a plan, in their order along the beam, what makes them stale,
+    when they were met, what redoing them takes, and the commands."""
     found = plan.spoils or ()
     if not found:
         return []
-    told = (f"{s.goal} ({s.why}; met {ago(s.at)}; {seconds(s.seconds)} to redo)" for s in found)
-    again = f"`pico apply {plan.target.revision} --align`" if plan.target.revision else "`pico apply --align`"
-    single = plan.target.cause == "single" or plan.target.scope
-    how = f"`pico optimize {found[0].goal}`" + (" and so on" if len(found) > 1 else "") if single else again
-    return [
-        f"spoils alignment of: {', '.join(told)}; then {how} redoes {'it' if len(found) == 1 else 'them in this order'}"
-    ]
+    texts = (f"{s.goal} ({s.why}{f'; met {ago(s.at)}' if s.at else ''}; {seconds(s.seconds)} to redo)" for s in found)
+    each = ", then ".join(f"`pico optimize {s.goal}`" for s in found)
+    whole = "" if plan.target.cause == "single" or plan.target.scope else "; or `pico apply --align`"
+    if whole and plan.target.revision:
+        whole = f"; or `pico apply {plan.target.revision} --align`"
+    return [f"align again: {', '.join(texts)}: {each}{whole}"]
 
 
 def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
@@ -289,7 +294,7 @@ def _as_wanted(plan: Plan) -> str:
         return f"Nothing to do by numbers. {unfound(goal_name(plan), missed or sorted(said))}"
     if plan.target.cause == "recover":
         return "Nothing to do: no gripper holds anything, and no arm stands where it was stopped."
-    return f"Nothing to do: the bench equals {goal_name(plan)}."
+    return f"Nothing to do: the bench equals {goal_name(plan)}{excepted(plan.changes)}."
 
 
 def _as_asked(beside: Sequence[Change] | None) -> str:

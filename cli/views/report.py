@@ -9,7 +9,7 @@ from pico.model.record import as_json
 from pico.model.trace.expectation import Expected
 from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 
-from .by_light import stays, unfound
+from .by_light import excepted, stays, unfound
 from .diff import brief
 from .style import count, listed, paint, seconds, wrap
 
@@ -79,7 +79,10 @@ def expectations(found: Sequence[Expected]) -> list[str]:
 def _bench(report: RunReport, undoing: bool) -> list[str]:
     if report.reached and (report.whole or report.scope or report.outcome == "done"):
         if report.whole:
-            return [unfound(report.goal, report.by_light or ()) or f"The bench equals {report.goal}."]
+            return [
+                unfound(report.goal, report.by_light or ())
+                or f"The bench equals {report.goal}{excepted(report.excepted or ())}."
+            ]
         if report.scope:
             return [_partial(report)]
         if report.measurements or report.read:

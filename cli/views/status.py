@@ -9,7 +9,7 @@ from pico.model.comparing.status import Status, StatusRow
 from pico.model.record import as_json
 from pico.model.state import is_reference
 
-from .style import columns, count, paint, place, valued, wrap
+from .style import columns, count, listed, paint, place, valued, wrap
 
 LONG = 40
 
@@ -64,7 +64,9 @@ def _cells(row: StatusRow) -> list[str]:
         aside = f", {row.aside}" * bool(row.aside)
         live = paint("yellow" if row.edited else "red", f"{place(row.live)}{aside}{unit} !")
     else:
-        live = "=" if row.exact else f"= {row.near}"
+        live = "=" if row.exact else f"= {row.near}".rstrip()
+    if row.kept and not row.note:
+        live = f"{place(row.live)}{unit}{paint('dim', f'  kept: {row.kept} has the last word')}"
     if row.requested and not row.note:
         live = "unknown" if row.live is None else f"{_light(row.live)}{unit}"
         live += paint("dim", f" (requested: {_light(row.desired)}{unit})")
@@ -96,8 +98,14 @@ def _summary(status: Status) -> list[str]:
     if not said:
         if all(row.committed is None for row in status.rows):
             return ['The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
-        but = ", but for light that is asked for" if any(r.requested for r in status.rows) else ""
-        return [f"Committed, desired and live are equal{but}."]
+        but = ["light that is asked for"] if any(r.requested for r in status.rows) else []
+        kept = sum(bool(r.kept) for r in status.rows)
+        but += [f"{count(kept, 'value')} that alignment has the last word on"] if kept else []
+        end = ["`pico capture` writes the values kept into the manifest; `pico apply --exact` drives to its numbers."]
+        return [
+            f"Committed, desired and live are equal{f', but for {listed(but)}' if but else ''}.",
+            *end[: bool(kept)],
+        ]
     advice = []
     if any(d.code == "goes-on" for d in status.cut_short):
         advice.append("A run goes on: this is the bench in between.")

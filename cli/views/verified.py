@@ -9,6 +9,7 @@ from pico.model.record import as_json
 from pico.model.trace.expectation import GoalRead, NumberRead, Standing, Verified
 
 from . import light_back
+from .by_light import excepted
 from .diff import lines
 from .measured import value
 from .report import expectations
@@ -24,13 +25,13 @@ _ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "h
 def text(found: Verified, *, suspects: Sequence[Suspect] = ()) -> str:
     """Return what differs beyond tolerance, and what became of the expectations, of goals and of light; `suspects`: why
     that differs, perhaps."""
-    within = len(found.changes) - len(found.off)
+    within = sum(change.tolerated and not change.aligned for change in found.changes)
     if found.off:
         verb = "is" if len(found.off) == 1 else "are"
         said = [f"{count(len(found.off), 'tunable')} {verb} not as {found.goal} says:", "", *lines(found.off), ""]
     else:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
-        said = [f"The bench equals {found.goal}{near}."]
+        said = [f"The bench equals {found.goal}{near}{excepted(found.changes)}."]
     said += goals(found.goals or ())
     if found.light:
         commit = found.standing.commit[:7] if found.standing else ""

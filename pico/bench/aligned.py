@@ -8,11 +8,10 @@ from datetime import datetime
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal, Protocol
 
-from pico.diagnostics import PicoError
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.goal import Goal
-from pico.model.observation import Aligned, Observation
+from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason, searched_by, touched_by
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
@@ -118,45 +117,6 @@ def stands(
     return (*alignments(setup, seen, records, utc_now(), took), *dark)
 
 
-def with_aligned(opened: Remembering, seen: Observation) -> Observation:
-    """Return an observation with which tunables are aligned: those with a trim of which a goal is. Where no goal has
-    light none is, and no journal is opened."""
-    setup, by_goal = opened.setup, trimmed(opened.setup)
-    goals = setup.lab.goals or {}
-    if not any(goal_light(setup, seen, goals[name]).order is not None for name in by_goal):
-        return seen
-    try:
-        alignments = standing(opened, seen, timed=False)
-    except PicoError:  # a journal that can't be read: nothing counts as aligned, and who needs it says why
-        return seen
-    met = {one.goal: Aligned(goal=one.goal, at=one.at) for one in alignments if one.status == "aligned"}
-    found = {address: met[name] for name in met for address in by_goal.get(name, ())}
-    return replace(seen, aligned=found) if found else seen
-
-
-def trimmed(setup: Setup) -> dict[str, tuple[str, ...]]:
-    """Return by goal of the Lab the tunables that are right within their trim while it is aligned: those whose
-    `restore` names it, and those that it tunes and that name none."""
-    found: dict[str, list[str]] = {}
-    for name in setup.lab.inventory:
-        for tunable, kind in setup.type_of(name).tunables.items():
-            address = f"{name}.{tunable}"
-            if kind.restore.kind != "align" or kind.restore.trim is None:
-                continue
-            for goal, one in (setup.lab.goals or {}).items():
-                if kind.restore.goal == goal or (kind.restore.goal is None and address in one.tunables):
-                    found.setdefault(goal, []).append(address)
-    return {goal: tuple(addresses) for goal, addresses in found.items()}
-
-
-def not_aligned_after(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> Observation:
-    """Return an observation in which only those tunables are aligned whose goals still will be after operations."""
-    goals = {met.goal for met in (seen.aligned or {}).values()} & (setup.lab.goals or {}).keys()
-    lost = {name for name in goals if _upset_by(setup, seen, name, operations)}
-    left = {address: met for address, met in (seen.aligned or {}).items() if met.goal not in lost}
-    return replace(seen, aligned=left or None)
-
-
 def experience(opened: Remembering, name: str, goal: Goal, algorithm: str) -> float | None:
     """Return what seeking a goal took last on this bench [s]; None where nobody knows yet."""
     memory = opened.edge.memory
@@ -205,6 +165,20 @@ def spoiled(
         wrong = _upset_by(setup, seen, one.goal, operations) if one.status == "aligned" else ""
         if wrong and goal_light(setup, then, (setup.lab.goals or {})[one.goal]).order is not None:
             yield one, wrong
+
+
+def unmet_after(
+    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
+) -> Iterator[Alignment]:
+    """Yield each goal of the Lab that is not aligned now, is not sought by a plan, and has light after it; in the order
+    along the beam."""
+    then = foreseen(setup, seen, operations)
+    sought = {op.arguments.get("goal") for op in operations if op.primitive == "optimize"}
+    for one in standing:
+        goal = (setup.lab.goals or {}).get(one.goal)
+        waiting = goal is not None and one.status != "aligned" and one.goal not in sought
+        if waiting and goal is not None and goal_light(setup, then, goal).order is not None:
+            yield one
 
 
 def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[Operation]) -> str:

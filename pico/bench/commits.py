@@ -13,6 +13,7 @@ from types import MappingProxyType
 from typing import Literal, get_args
 
 from pico.bench.aligned import stands as goals_stand
+from pico.bench.alignment.own_values import found_by_light, never_set, with_own_values
 from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
@@ -30,12 +31,13 @@ from pico.history.runs.benches import pending_elsewhere
 from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, holds, read_addresses
 from pico.model.comparing.status import refuse_unapplied
-from pico.model.diff import Change, as_trimmed, diff_states
+from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan
 from pico.model.state import LabState, home_state, references_of, state_from_json
 from pico.model.trace.report import Captured, Committed
 from pico.model.trace.run import GoalStood
+from pico.planning.aligned_values import GoalMet
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
 
 CommitMode = Literal["strict", "capture", "planned"]
@@ -61,7 +63,8 @@ class Commits:
         with told_with(self.opened, seen):
             _refuse_in_hand(seen, named)
         kept = _kept(self.folder, seen, named)
-        return replace(self.folder.capture(self._live(seen, named), named, write=write), by_light=kept or None)
+        captured = self._captured(seen, named, write=write)
+        return replace(captured, by_light=kept or None)
 
     def wanted(self, plan: Plan, *only: str, write: bool = True) -> Captured:
         """Write what a plan leads to of `only` these tunables into the manifest, as it was asked for; the bench stays.
@@ -79,10 +82,25 @@ class Commits:
     def _used(self) -> bool:
         return self.opened.wait(self.opened.edge.describe()).kept
 
-    def _live(self, seen: Observation, named: Named | None) -> LabState:
-        """Return what there is to capture: what is right by its trim is as it is committed, unless it is named."""
-        live = live_state(self.folder.setup, seen, sure=True)
-        return live if named else as_trimmed(self.folder.setup, seen, live, self.folder.state)
+    def _captured(self, seen: Observation, named: Named | None, *, write: bool = True) -> Captured:
+        """Write what the bench shows, with the values that goals found; say which of them were written."""
+        setup, light = self.folder.setup, self._light(seen)
+        live, values = live_state(setup, seen, sure=True), {a: one.values[a] for a, one in light.items()}
+        captured = self.folder.capture(live, named, values, write=write)
+        written = {f"{c.component}.{c.tunable}" for c in captured.changes} & light.keys()
+        goals = {light[address].goal for address in written}
+        aligned = {goal: tuple(sorted(a for a in written if light[a].goal == goal)) for goal in sorted(goals)}
+        return replace(captured, aligned=aligned or None)
+
+    def _light(self, seen: Observation) -> Mapping[str, GoalMet]:
+        """Return the tunables whose live values a met goal found; none of a bench without goals."""
+        if not self.folder.setup.lab.goals:
+            return {}
+        with remembered(_place(self.folder)) as memory:
+            return found_by_light(self.folder.setup, memory, seen)
+
+    def _with_own(self, seen: Observation, state: LabState) -> Observation:
+        return with_own_values(self.opened, seen, state) if self.folder.setup.lab.goals else seen
 
     def commit(
         self,
@@ -124,10 +142,11 @@ class Commits:
             if moved and not ending and mode != "planned":
                 raise moved
             if not ending:
-                _refuse(folder, seen, mode, named, used=self._used())
+                _refuse(folder, self._with_own(seen, folder.state), mode, named, used=self._used())
             if not ending and mode != "planned":
-                captured = folder.capture(self._live(seen, named), named)
+                captured = self._captured(seen, named)
             content = contents(folder, named)
+            seen = self._with_own(seen, content.state)
             missed = _unaligned(folder, seen, content.state)
             realized = stands(folder.setup, seen, content.state) and not missed
             goals = _goals(folder, seen, content.state) if realized else None
@@ -143,6 +162,7 @@ class Commits:
             made = committed(
                 folder, message, captured.changes, counts, runs=runs, meta=meta, named=named, hands=hands, empty=empty
             )  # fmt: skip
+        made = replace(made, aligned=captured.aligned)
         told = (*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder))
         return replace(made, diagnostics=(*told, *pending_elsewhere(self.opened.place)))
 
@@ -155,10 +175,11 @@ class Commits:
         if moved and mode != "planned":
             raise moved
         named = read_addresses(folder.setup, only) if only else None
-        _refuse(folder, seen, mode, named, used=self._used())
+        _refuse(folder, self._with_own(seen, folder.state), mode, named, used=self._used())
         captured, state = (Captured(), folder.state)
         if mode != "planned":
-            captured, state = folder.preview(self._live(seen, named), named)
+            values = {a: one.values[a] for a, one in self._light(seen).items()}
+            captured, state = folder.preview(live_state(folder.setup, seen, sure=True), named, values)
         content = contents(folder, named)
         if not (captured.files or content.paths or empty or recording.awaited(folder)):
             raise PicoError(nothing(named))
@@ -220,7 +241,10 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
     with remembered(_place(folder)) as memory:
         if committed is not None:
             missed = unaligned(folder.setup, memory, seen, folder.state)
-            refuse_unapplied(folder.setup, committed, folder.state, seen, components, unaligned=missed)
+            unset = never_set(folder.setup, memory, seen, folder.state)
+            refuse_unapplied(
+                folder.setup, committed, folder.state, seen, components, unaligned=missed, unset=unset
+            )  # fmt: skip
         found = never_here(folder.setup, memory, seen, folder.state, stood=_stood(folder) if used else None)
     never = sorted(
         component if tunable == "pose" else f"{component}.{tunable}"

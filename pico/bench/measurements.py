@@ -172,6 +172,10 @@ class Measurements:
         folder, setup = self.opened.folder, self.opened.setup
         wanted = folder.state_at(revision) if revision else folder.state
         seen = replace(self.opened.observe(), measurements=report.measurements if report else {})
+        if setup.lab.goals:
+            from pico.bench.alignment.own_values import with_own_values
+
+            seen = with_own_values(self.opened, seen, wanted, revision=revision)
         committed = wanted if revision else folder.committed()
         asked = references_of(wanted) or (committed is not None and references_of(committed))
         memory = self.opened.edge.memory if asked else None  # else a damaged journal hides nothing

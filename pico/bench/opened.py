@@ -138,13 +138,8 @@ class Opened:
         return self.thread.wait(work)
 
     def observe(self) -> Observation:
-        """Look, and return what was seen, with which tunables are aligned as the journal knows."""
-        seen = self.wait(self.edge.observe())
-        if not self.setup.lab.goals:
-            return seen
-        from pico.bench.aligned import with_aligned
-
-        return with_aligned(self, seen)
+        """Look, and return what was seen."""
+        return self.wait(self.edge.observe())
 
     def suit(self, plan: Plan) -> None:
         """Have the fidelity that a plan was made for."""

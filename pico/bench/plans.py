@@ -40,6 +40,10 @@ if TYPE_CHECKING:
     from pico.planning.surveying import Shots
 
 
+_NUMBERS = ("undo", "redo", "recover")
+"""Causes of plans that bring numbers back, whatever light found."""
+
+
 class Plans:
     """Plans on one bench. Nothing moves by them."""
 
@@ -124,16 +128,13 @@ class Plans:
 
         `told`: what is wrong with the manifests beside it.
         """
-        planner, setup = self.planner(seen), self.opened.setup
-        found = planner.plan(goal)
-        while seen.aligned and found.operations:
-            from pico.bench.aligned import not_aligned_after
+        if self.opened.setup.lab.goals and not goal.exact and goal.target.cause not in _NUMBERS:
+            from pico.bench.alignment.own_values import with_own_values
 
-            still = not_aligned_after(setup, seen, found.operations)
-            if still.aligned == seen.aligned:
-                break
-            seen = still  # what it makes stale has no last word on its tunables any more
-            found = replace(planner, seen=seen).plan(goal)
+            at = goal.target.revision
+            seen = with_own_values(self.opened, seen, goal.wanted, revision=at, named=goal.targets)
+        planner = self.planner(seen)
+        found = planner.plan(goal)
         if told or calibration:
             found = replace(found, calibration=calibration, diagnostics=(*told, *found.diagnostics)).sealed()
         return self.judged(self._realigned(found, seen, planner.motion) if found.target.align else found, seen)
@@ -221,9 +222,10 @@ class Plans:
         state = wanted = state_from_json(plan.lab.name, plan.target.state)
         if not references_of(wanted):
             state = opened.folder.state_now() or wanted
-        if not (references_of(state) or (setup.lab.goals and plan.operations)):
+        kept = {c.aligned.goal for c in plan.changes if c.aligned}
+        if not (references_of(state) or kept or (setup.lab.goals and plan.operations)):
             return (), ()
-        from pico.bench.aligned import spoiled, standing
+        from pico.bench.aligned import spoiled, standing, unmet_after
         from pico.bench.by_light import staying, told
         from pico.planning.by_light import told_of, with_goals
 
@@ -239,7 +241,11 @@ class Plans:
             )
             for one, why in found if one.goal in references  # set-points of the state, which the bench will not equal
         )  # fmt: skip
-        lost = (Spoiled(goal=o.goal, why=f"{w} changes", at=o.at, seconds=o.seconds) for o, w in found)
+        lost = [Spoiled(goal=o.goal, why=f"{w} changes", at=o.at, seconds=o.seconds) for o, w in found]
+        lost += [
+            Spoiled(goal=one.goal, why=one.why or one.status, at=one.at, seconds=one.seconds)
+            for one in unmet_after(setup, seen, stands, plan.operations) if one.goal in kept
+        ]  # fmt: skip
         return (*unmet, *stale), tuple(one for one in lost if one.goal not in references)
 
     def leaves_manifest(self, plan: Plan) -> bool:

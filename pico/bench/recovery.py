@@ -99,7 +99,7 @@ class Recovery:
         names = renaming_of(self.opened.setup.lab)
         done = {(names.get(c, c), t) for run in runs[: last + 1] for c, t in begun_by(memory, run)}
         before, held = state_before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
-        looked = replace(self.opened.observe(), aligned=None)  # numbers come back, whatever light says
+        looked = self.opened.observe()
         seen = self._emptied(looked)
         live = live_state(self.opened.setup, seen)
         wanted = replace(live, components={**live.components, **before.components})

@@ -56,7 +56,8 @@ class Watch:
         """Return committed, desired and live side by side."""
         from pico.model.comparing.status import compare
 
-        folder, seen = self.opened.folder, self.opened.observe()
+        folder = self.opened.folder
+        seen = self._with_own(self.opened.observe(), folder.state)
         head, missed = (
             self.opened.history.head_name(),
             unaligned(folder.setup, self.opened.edge.memory, seen, folder.state),
@@ -67,8 +68,9 @@ class Watch:
     def look(self) -> Drifted:
         """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,
         needs no lock; raises PicoError."""
-        setup, seen = self.opened.setup, self.opened.observe()
+        setup = self.opened.setup
         head = self.opened.folder.committed() or self.opened.folder.state_at("HEAD")  # which says why there is none
+        seen = self._with_own(self.opened.observe(), head)
         changes = (*drift_of(setup, seen, head), *unfound(setup, self.opened.edge.memory, seen, head))
         rules = set(setup.lab.policy.ignore)
         ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
@@ -82,6 +84,14 @@ class Watch:
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
             cut_short=told_first(self.opened, seen), light=tuple(self._light_lost(seen, head, beyond)) or None,
         )  # fmt: skip
+
+    def _with_own(self, seen: Observation, state: LabState) -> Observation:
+        """Return what was seen, with the tunables that stay where light has them whatever a state says."""
+        if not self.opened.setup.lab.goals:
+            return seen
+        from pico.bench.alignment.own_values import with_own_values
+
+        return with_own_values(self.opened, seen, state)
 
     def _light_lost(self, seen: Observation, head: LabState, beyond: Sequence[Drift]) -> Iterator[LightLost]:
         """Yield the goals whose light is lost, or comes through what has moved; nothing is measured."""
@@ -139,8 +149,12 @@ class Watch:
         if found.held or not names:
             return None
         kinds = {name: self.opened.setup.type_of(name).tunables for name in names}
-        light = [f"{n}.{t}" for n, own in kinds.items() for t in own if self.opened.setup.requests(n, t)]
-        plan = Plans(self.opened).plan("HEAD", targets=names, exclude=light)
+        drifted = {(d.change.component, d.change.tunable) for d in found.beyond}
+        kept = [  # light that is asked for, and what light has the last word on, but for what has drifted itself
+            f"{n}.{t}" for n, own in kinds.items() for t, kind in own.items()
+            if kind.restore.kind == "request" or (kind.restore.kind == "align" and (n, t) not in drifted)
+        ]  # fmt: skip
+        plan = Plans(self.opened).plan("HEAD", targets=names, exclude=kept)
         if plan.errored:
             raise PicoError([d for d in plan.diagnostics if d.severity == "error"], ExitCode.IMPOSSIBLE)
         return Moves(self.opened).apply(plan.because("heal")) if plan.operations else None

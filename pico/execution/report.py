@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, warning
 from pico.execution.graph import set_back
 from pico.model.comparing.drift import drift_of, uncertain
-from pico.model.diff import Change, diff_observed, show_value
+from pico.model.diff import Change, diff_observed, show_value, within_trim
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by
@@ -36,6 +36,7 @@ def run_report(
     seen = replace(seen, aligned=right)
     whole = not asked and not plan.target.scope
     remaining = _remaining(setup, plan, seen, whole)
+    excepted = _excepted(setup, plan, seen) if whole else ()
     return RunReport(
         run=events[-1].run,
         **events[-1].data,
@@ -48,6 +49,7 @@ def run_report(
         scope=plan.target.scope,
         left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=remaining,
+        excepted=excepted or None,
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,
@@ -59,7 +61,7 @@ def run_report(
         diagnostics=(
             *told_by(events),
             *_left_set(setup, plan, events, seen),
-            *_beyond_trim(setup, remaining, right),
+            *_beyond_trim(setup, plan, seen, {goal.goal for goal, _ in goals if goal.met}),
             *_later(plan, events),
         ),
     )
@@ -132,6 +134,12 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
     )
 
 
+def _excepted(setup: Setup, plan: Plan, seen: Observation) -> tuple[Change, ...]:
+    """Return what differs from the goal and does not count: light that is asked for, and values kept by alignment."""
+    wanted = state_from_json(plan.lab.name, plan.target.state)
+    return tuple(c for c in diff_observed(setup, seen, wanted) if c.aligned or (c.requested and not c.tolerated))
+
+
 def _later(plan: Plan, events: Sequence[Event]) -> Iterator[Diagnostic]:
     """Yield what took notably longer than the plan foretold."""
     operations = {op.id: op for op in plan.operations}
@@ -144,22 +152,20 @@ def _later(plan: Plan, events: Sequence[Event]) -> Iterator[Diagnostic]:
         yield Diagnostic("note", "slow", text, hint=hint, address=op.address)
 
 
-def _beyond_trim(
-    setup: Setup, remaining: Sequence[Change], right: Mapping[str, Aligned | None]
-) -> Iterator[Diagnostic]:
-    """Yield what light found so far off that another apply would take it back, and then find it again."""
-    for change in remaining:
-        address = f"{change.component}.{change.tunable}"
-        if (found := right.get(address)) is None:
+def _beyond_trim(setup: Setup, plan: Plan, seen: Observation, met: Collection[str]) -> Iterator[Diagnostic]:
+    """Yield what a goal that was `met` in a run found beyond its trim: its part was probably put down badly."""
+    for change in diff_observed(setup, seen, state_from_json(plan.lab.name, plan.target.state)) if met else ():
+        kind = setup.type_of(change.component).tunables.get(change.tunable)
+        if kind is None or change.aligned is None or change.aligned.goal not in met:
             continue
-        kind = setup.type_of(change.component).tunables[change.tunable]
+        if within_trim(kind, change.before, change.after):
+            continue
+        address = f"{change.component}.{change.tunable}"
         trim = "no trim" if kind.restore.trim is None else f"a trim of {kind.restore.trim:g} {kind.unit}".rstrip()
-        text = (
-            f"{found.goal} was met with {address} at {change.before} {kind.unit}; around {change.after} it has {trim}"
-        )
+        text = f"{change.aligned.goal} was met with {address} at {change.before} {kind.unit}"
         yield warning(
-            BEYOND_TRIM, text, address=address,
-            hint=f"`pico capture {address}` takes over what light found; or put {change.component} down anew",
+            BEYOND_TRIM, f"{text}; around {change.after} it has {trim}", address=address,
+            hint=f"`pico capture {address}` writes what light found; or put {change.component} down anew",
         )  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 
-from pico.manifest.changes import Changes, differences
+from pico.manifest.changes import NONE, Changes, differences
 from pico.manifest.edit import components_of, spliced
 from pico.manifest.files import decode
 from pico.manifest.text.kinds import kind_of
@@ -12,21 +12,22 @@ from pico.manifest.text.places import find
 from pico.manifest.text.splice import Splice, apply_splices
 from pico.manifest.text.tree import Map, parse
 from pico.model.address import Named, Renaming, renaming_of
+from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.model.state import LabState
 
 
 def capture(
     files: Mapping[str, bytes], setup: Setup, wanted: LabState, live: LabState, named: Named | None = None,
-    known: Collection[str] | None = None,
+    known: Collection[str] | None = None, found: Mapping[str, Value] = NONE,
 ) -> dict[str, bytes]:  # fmt: skip
     """Return the manifests that must change for the files' state (`wanted`) to say what `live` is.
 
-    Only values that differ beyond tolerance change, and of these only those `named`. A component that no file names is
-    put into the file that holds most. `known`: the parts of the Lab that the files describe, if it is not that of
+    Only values that differ beyond tolerance change, those that light `found` (by address) also within it, and of these
+    only those `named`. A component that no file names is put into the file that holds most. `known`: the parts of the Lab that the files describe, if it is not that of
     `setup`. Raises PicoError for files that hold no LabState, or one that can't be written to.
     """
-    return with_changes(files, setup, differences(setup, wanted, live, named), known)
+    return with_changes(files, setup, differences(setup, wanted, live, named, found), known)
 
 
 def with_changes(

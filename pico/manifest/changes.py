@@ -18,25 +18,27 @@ from pico.model.state import ComponentState, LabState, place_of
 Change = Value | Pose | Mapping[str, Any] | None
 """A new value: of a tunable (a reference to light as data), of `slot` (its name) or of `pose`. None takes the entry
 out."""
+NONE: Mapping[str, Value] = {}
 Changes = Mapping[str, Mapping[str, Change] | None]
 """For each component the entries that change; None takes the whole component out."""
 
 
 def differences(
-    setup: Setup, wanted: LabState, live: LabState, named: Named | None = None
+    setup: Setup, wanted: LabState, live: LabState, named: Named | None = None, found: Mapping[str, Value] = NONE
 ) -> dict[str, dict[str, Change]]:
     """Return for each component the entries to write so that `wanted` says what `live` is.
 
     A component that `live` lacks (not seen) and one that the inventory lacks stay as they are; tunables that `wanted`
     does not name stay unnamed, except of a component that it does not name at all. `named`: only these tunables. Light
-    that is asked for stays asked for, unless it is named.
+    that is asked for stays asked for, unless it is named. `found`: values that light found, by address, which are
+    written down to the resolution.
     """
     changes: dict[str, dict[str, Change]] = {}
     for name in sorted(live.components.keys() & setup.lab.inventory.keys()):
         seen = live.components[name]
         entries = _place(setup, name, wanted, live)
         if name in wanted.components:
-            values = _values(setup, name, wanted.components[name], seen)
+            values = _values(setup, name, wanted.components[name], seen, found)
             entries |= {k: v for k, v in values.items() if named is not None or not setup.requests(name, k)}
         elif entries:
             entries |= {k: rounded(setup, name, k, v) for k, v in sorted(seen.values.items()) if _known(setup, name, k)}
@@ -140,15 +142,20 @@ def _posed(setup: Setup, name: str, goal: Pose | None, live: Pose) -> Pose:
     return live if deviation(setup, name, live, None, pose) == "off" else pose
 
 
-def _values(setup: Setup, name: str, wanted: ComponentState, seen: ComponentState) -> dict[str, Change]:
-    kinds = setup.type_of(name).tunables
-    return {
-        tunable: rounded(setup, name, tunable, seen.values[tunable])
-        for tunable, goal in sorted(wanted.values.items())
-        if tunable in seen.values
-        and tunable in kinds
-        and value_deviation(kinds[tunable], seen.values[tunable], goal) == "off"
-    }
+def _values(
+    setup: Setup, name: str, wanted: ComponentState, seen: ComponentState, found: Mapping[str, Value]
+) -> dict[str, Change]:
+    kinds, changes = setup.type_of(name).tunables, dict[str, Change]()
+    for tunable, goal in sorted(wanted.values.items()):
+        if tunable not in seen.values or tunable not in kinds:
+            continue
+        kind, live, address = kinds[tunable], seen.values[tunable], f"{name}.{tunable}"
+        off, written = value_deviation(kind, live, goal), rounded(setup, name, tunable, live)
+        # what is read of a motor scatters by less than its tolerance: only what a search found anew is written again
+        anew = off == "tolerated" and address in found and value_deviation(kind, found[address], goal) != "none"
+        if off == "off" or (anew and written != goal):
+            changes[tunable] = written
+    return changes
 
 
 def rounded(setup: Setup, name: str, tunable: str, value: Value) -> Value:

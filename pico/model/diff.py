@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 from typing import Any, Literal
 
 from pico.model.catalog import Tunable
@@ -21,9 +20,9 @@ Deviation = Literal["none", "tolerated", "off"]
 @record
 class Change:
     """One tunable that differs. `before` and `after` hold a slot's name, a pose as {x, y, yaw}, or a value; `before`
-    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it; or by
-    no more than its trim, while the goal that it is tuned for is `aligned`. `requested`: it is light that is asked for,
-    which no state is: the bench equals the state nevertheless."""
+    is None where it is not known. `tolerated`: it differs by no more than its tolerance, so nothing moves for it; or
+    light has the last word on it, and it stays at its live value (`aligned`). `requested`: it is light that is asked
+    for, which no state is: the bench equals the state nevertheless."""
 
     component: str
     tunable: str
@@ -80,7 +79,7 @@ def diff_observed(setup: Setup, seen: Observation, wanted: LabState, *, exact: b
     """Return what must change for the bench as observed to be as wanted, sorted by component and tunable.
 
     Differences below the resolution are none; those within tolerance are listed as `tolerated` unless `exact`, and so
-    are those within the trim of a tunable that `seen` knows to be aligned. Missing, held and toppled components are
+    are those of tunables that stay where light has them (`seen.aligned`). Missing, held and toppled components are
     left to the caller; tunables that the observation does not hold are not compared.
     """
     changes: list[Change] = []
@@ -142,8 +141,8 @@ def _observed_values(setup: Setup, name: str, seen: Observation, wanted: LabStat
         off = "off" if value is None else value_deviation(kind, value, goal)
         if off == "none":
             continue
-        met = (seen.aligned or {}).get(f"{name}.{tunable}") if off == "off" and value is not None else None
-        trimmed = met is not None and value is not None and within_trim(kind, value, goal)
+        stays = value is not None and off == "off" and not exact
+        met = (seen.aligned or {}).get(f"{name}.{tunable}") if stays else None
         text = describe_value(kind, value, goal)
         changes.append(
             Change(
@@ -152,8 +151,8 @@ def _observed_values(setup: Setup, name: str, seen: Observation, wanted: LabStat
                 before=value,
                 after=goal,
                 text=text,
-                tolerated=(off == "tolerated" or trimmed) and not exact,
-                aligned=met if trimmed and not exact else None,
+                tolerated=(off == "tolerated" or met is not None) and not exact,
+                aligned=met,
                 requested=kind.restore.kind == "request" or None,
             )
         )
@@ -161,20 +160,10 @@ def _observed_values(setup: Setup, name: str, seen: Observation, wanted: LabStat
 
 
 def within_trim(kind: Tunable, value: Value, goal: Value) -> bool:
-    """Return whether a tunable that an optimization has the last word on is within its trim of the value that is
-    committed: right, while its goal is aligned."""
+    """Return whether a tunable that light has the last word on is within its trim of the value that is committed:
+    farther away, its part was probably put down badly."""
     trim = kind.restore.trim
     return kind.restore.kind == "align" and trim is not None and value_distance(kind, value, goal) <= trim
-
-
-def as_trimmed(setup: Setup, seen: Observation, live: LabState, wanted: LabState) -> LabState:
-    """Return `live` with what is right by its trim at the value that is wanted: the same state, as commits mean it."""
-    right = {(c.component, c.tunable): c.after for c in diff_observed(setup, seen, wanted) if c.aligned and c.tolerated}
-    parts = {
-        name: replace(part, values={t: right.get((name, t), v) for t, v in part.values.items()})
-        for name, part in live.components.items()
-    }
-    return replace(live, components=parts) if right else live
 
 
 def value_deviation(kind: Tunable, value: Value, goal: Value) -> Deviation:

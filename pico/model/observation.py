@@ -80,8 +80,9 @@ class ObservedRobot:
 
 @record
 class Aligned:
-    """Why a tunable is right anywhere within its trim: the `goal` that it is tuned for was met, and at what time by the
-    wall (ISO 8601)."""
+    """Why a tunable stays at its live value, whatever a state says: light has the last word on it, by a `goal`.
+    `at`: when that was met with the live value (the wall, ISO 8601); empty for a value that no plan set and with which
+    the goal was not met."""
 
     goal: str
     at: str = ""
@@ -95,8 +96,8 @@ class Observation:
 
     `measurements`: what was measured of it as it is, by address (`cam.image`); what was only peeked at is no such.
 
-    `aligned`: tunables by address (`m1.tip`) whose goal is aligned, as the journal of the bench knows; a backend itself
-    knows of none.
+    `aligned`: tunables by address (`m1.tip`) that a plan to the state at hand leaves at their live values, as
+    `pico.bench.alignment.own_values` found for that state; a backend itself knows of none.
 
     `licences`: what lets lasers emit now, by name, as the edge knows it; of one that it does not name nothing does,
     unless its class is 1 or 2.

@@ -112,8 +112,9 @@ class Blocking:
 
 @record
 class Spoiled:
-    """A goal that is aligned, and will not be after a plan: `why`; when it was met (`at`, by the wall); the `seconds`
-    that it takes to be sought again."""
+    """A goal to be aligned again after a plan: one that is aligned and will not be, or that is not, and whose tunables
+    the plan leaves where light had them. `why`; when it was met (`at`, by the wall, empty if it never was); the
+    `seconds` that it takes to be sought again."""
 
     goal: str
     why: str

@@ -150,6 +150,9 @@ def _there(setup: Setup, state: LabState, one: tuple[str, str], success: Success
     """Whether a state has a tunable where its component was observed after an operation."""
     component, tunable = one
     kind, part = setup.type_of(component), success.after
+    found = (success.last or {}).get(f"{component}.{tunable}")
+    if found is not None and component in state.components and tunable in state.components[component].values:
+        return value_deviation(kind.tunables[tunable], found, state.components[component].values[tunable]) != "off"
     if part is None or success.operation.component != component:
         return False
     if tunable == "pose":

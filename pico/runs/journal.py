@@ -117,12 +117,14 @@ class Unsettled:
 
 @record
 class Success:
-    """An operation that succeeded in a run, when, and its component as observed `after` it, where anybody looked."""
+    """An operation that succeeded in a run, when, and its component as observed `after` it, where anybody looked;
+    `last`: what a search measured last, its tunables among it, by address."""
 
     run: str
     operation: Operation
     at: str
     after: ObservedComponent | None = None
+    last: Mapping[str, float] | None = None
 
 
 def utc_now() -> str:
@@ -336,9 +338,10 @@ class Journal:
         """Yield the operations on some components that succeeded, the last one first."""
         with self._guarded():
             for name, run, intent, end, at in self._db.execute(_SUCCESSES):
-                if name in components:
-                    operation, after = operation_from_json(json.loads(intent)), json.loads(end).get("after")
-                    yield Success(run=run, operation=operation, after=observed_from_json(after), at=at)
+                if name in components or '"optimize"' in intent:  # one search sets tunables of several components
+                    operation, ended = operation_from_json(json.loads(intent)), json.loads(end)
+                    after, last = observed_from_json(ended.get("after")), (ended.get("data") or {}).get("last")
+                    yield Success(run=run, operation=operation, after=after, at=at, last=last)
 
     def _select(self, where: str, *values: str) -> tuple[JournalRecord, ...]:
         columns = "seq, key, kind, component, digest, token, at, data"

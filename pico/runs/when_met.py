@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
+from pico.model.operation import touched_by
 from pico.model.pose import Pose
+from pico.model.primitive import primitive
+from pico.model.quantities import Value
 from pico.model.state import ComponentState, LabState
+from pico.planning.aligned_values import GoalMet
+from pico.runs.journal import JournalRecord
 from pico.runs.memory import Memory
 
 MOST = 200
@@ -35,6 +41,66 @@ def measured_when_met(memory: Memory | None, name: str, goal: Mapping[str, Any])
     return None
 
 
+def met_before(memory: Memory, goals: Mapping[str, Mapping[str, Any]]) -> Iterator[GoalMet]:
+    """Yield when goals (as JSON, by name) were met on a bench and were the same, the last time first, with where its
+    parts stood then. Runs after which nobody looked are left out. Raises PicoError where the journal can't be read."""
+    for run in reversed(memory.runs()[-MOST:]):
+        own = memory.records(run=run.run)
+        begun = {r.key: r.data["arguments"] for r in own if r.kind == "intent"}
+        ends = [r for r in own if r.kind == "done" and (r.data.get("data") or {}).get("met")]
+        after = memory.about(run.run)[1] if ends else None
+        for end in reversed(ends) if after else ():
+            name, what = str(begun.get(end.key, {}).get("goal")), begun.get(end.key, {}).get("what", {})
+            if name in goals and all(what.get(key) == goals[name].get(key) for key in _MEASURED):
+                poses = _poses(after or {}, [r for r in own if r.kind == "intent" and r.seq > end.seq])
+                yield GoalMet(name, end.at, end.data["data"].get("last") or {}, poses)
+
+
+def _poses(after: Mapping[str, Any], since: Sequence[JournalRecord]) -> dict[str, Pose]:
+    """Return where parts stood before operations that were begun in a run, from how they stood after it."""
+    found = {n: Pose(**part["pose"]) for n, part in after["components"].items() if part.get("pose")}
+    for record in reversed(since):
+        start = (record.data.get("arguments") or {}).get("from")
+        if isinstance(start, Mapping) and "pose" in start and record.component in found:
+            found[record.component] = Pose(**start["pose"])
+    return found
+
+
+def not_set_by_plans(memory: Memory, addresses: Collection[str]) -> set[str]:
+    """Return the tunables, among some by address, that something else than a plan to a state set last: a search, a
+    person, a script, an undo. Raises PicoError where the journal can't be read."""
+    left, found = set(addresses), set[str]()
+    for run in reversed(memory.runs()[-MOST:]):
+        if not left:
+            break
+        own = memory.records(run=run.run)
+        begun = {r.key for r in own if r.kind == "started"}
+        target = json.loads(memory.document(run.run) or "{}").get("target", {})
+        deliberate = target.get("cause") in _BACK or (target.get("title") and not target.get("cause"))
+        for record in reversed([r for r in own if r.kind == "intent" and r.key in begun]):
+            if not primitive(str(record.data["primitive"])).mutating:
+                continue
+            touched = {f"{c}.{t}" for c, t in touched_by(record.component, record.data["arguments"])} & left
+            why = (record.data.get("reason") or {}).get("kind")
+            found |= touched if deliberate or why in ("asked", "align") else set()
+            left -= touched
+    return found
+
+
+def ever_stood(memory: Memory, address: str, fits: Callable[[Value], bool]) -> bool:
+    """Return whether a tunable had a value that `fits` before or after one of the last runs of a bench. Raises
+    PicoError where the journal can't be read."""
+    component, _, tunable = address.partition(".")
+    for run in reversed(memory.runs()[-MOST:]):
+        after = (memory.about(run.run)[1] or {}).get("components", {}).get(component, {}).get("values", {})
+        before = json.loads(memory.document(run.run) or "{}").get("base", {}).get("state", {})
+        values = (after.get(tunable, {}).get("value"), before.get("components", {}).get(component, {}).get(tunable))
+        if any(value is not None and fits(value) for value in values):
+            return True
+    return False
+
+
+_BACK = ("undo", "redo")
 _MEASURED = ("reach", "minimize", "maximize", "during", "looks")
 """What of a goal says what is measured of it."""
 

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
@@ -26,6 +27,7 @@ from pico.manifest.files import bench_files, read_folder, shown_path, states_alo
 from pico.manifest.load import Manifests, find_lab, load_files
 from pico.model.address import Named, former_names, renamed_keys, renamed_state, renaming_between, renaming_of
 from pico.model.diff import Change, diff_states
+from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
@@ -321,12 +323,16 @@ class LabFolder:
             finally:
                 self._writing = False
 
-    def capture(self, live: LabState, named: Named | None = None, *, write: bool = True) -> Captured:
+    def capture(
+        self, live: LabState, named: Named | None = None, found: Mapping[str, Value] = MappingProxyType({}), *,
+        write: bool = True,
+    ) -> Captured:  # fmt: skip
         """Write what `live` says otherwise than the manifests, beyond tolerance, into them; raises PicoError.
 
-        `named`: only these tunables. Without `write`, say what would be written.
+        `named`: only these tunables. `found`: values that light found, by address, written down to the resolution.
+        Without `write`, say what would be written.
         """
-        return self._written(lambda: self._spliced(live, named), write)
+        return self._written(lambda: self._spliced(live, named, found), write)
 
     def write_wanted(self, goal: LabState, named: Named, *, write: bool = True) -> Captured:
         """Write what `goal` says of `named` into the manifests, as it says it; raises PicoError. Without `write`, say
@@ -352,16 +358,18 @@ class LabFolder:
             self._adopt({**self._files, **spliced}, manifests)
             return found
 
-    def preview(self, live: LabState, named: Named | None = None) -> tuple[Captured, LabState]:
+    def preview(
+        self, live: LabState, named: Named | None = None, found: Mapping[str, Value] = MappingProxyType({})
+    ) -> tuple[Captured, LabState]:
         """Return what a capture would write, and the state that the manifests would then hold; raises PicoError."""
-        captured, manifests = self._captured(self._spliced(live, named), written=False)
+        captured, manifests = self._captured(self._spliced(live, named, found), written=False)
         return captured, manifests.require()[1]
 
-    def _spliced(self, live: LabState, named: Named | None) -> dict[str, bytes]:
+    def _spliced(self, live: LabState, named: Named | None, found: Mapping[str, Value]) -> dict[str, bytes]:
         from pico.manifest.capture import capture
 
         known = self.described.lab.inventory
-        return capture(self._files, self.setup, self.state, live, named, known)
+        return capture(self._files, self.setup, self.state, live, named, known, found)
 
     def _captured(self, spliced: Mapping[str, bytes], *, written: bool) -> tuple[Captured, Manifests]:
         from pico.model.trace.report import Captured

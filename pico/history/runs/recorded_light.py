@@ -3,7 +3,7 @@ were then seen to stand."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -13,7 +13,7 @@ from pico.history.runs.loading import runs_in
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import ObservedComponent
 from pico.model.primitive import primitive
-from pico.model.trace.run import TraceEvent
+from pico.model.trace.run import STRENGTH, TraceEvent
 from pico.runs.journal import observed_from_json
 from pico.runs.trace import measurement_in
 
@@ -32,13 +32,13 @@ class RecordedLight:
     seen: Mapping[str, ObservedComponent] = field(default_factory=dict)
 
 
-def recorded_light(folder: LabFolder, commit: str) -> RecordedLight:
+def recorded_light(folder: LabFolder, commit: str, evidence: Collection[str] = tuple(STRENGTH)) -> RecordedLight:
     """Return what the runs recorded that a commit (its id) brought: the last of each measurable and goal. What the
-    bench was changed after counts no more."""
+    bench was changed after counts no more. evidence: of the runs that count."""
     measured: dict[str, Measurement] = {}
     goals: dict[str, Mapping[str, float]] = {}
     seen: dict[str, ObservedComponent] = {}
-    for run in runs_in(folder, commit):
+    for run in (run for run in runs_in(folder, commit) if run.document.evidence in evidence):
         _follow(run.trace, measured, goals)
         stood = (run.document.goals or {}).items()
         seen |= _seen(run.measurements)

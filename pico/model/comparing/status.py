@@ -7,6 +7,7 @@ from dataclasses import field
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.model.catalog import Tunable
 from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
@@ -25,7 +26,7 @@ class StatusRow:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
     deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
     the values. `requested`: it differs, and is light that is asked for, which no state is. `note`: missing, held,
-    toppled or uncertain.
+    toppled or uncertain. `kept`: the goal that has the last word on it, if it differs and stays at its live value.
     """
 
     component: str
@@ -42,6 +43,7 @@ class StatusRow:
     unit: str = ""
     requested: bool = False
     note: str = ""
+    kept: str = ""
 
     @property
     def address(self) -> str:
@@ -51,7 +53,7 @@ class StatusRow:
     @property
     def equal(self) -> bool:
         """Whether there is nothing to tell about it."""
-        return not (self.edited or self.off or self.note or self.requested)
+        return not (self.edited or self.off or self.note or self.requested or self.kept)
 
 
 @record
@@ -152,7 +154,7 @@ def _value_rows(
             desired=after.get(tunable),
             live=live.get(tunable),
             edited=committed is not None and before.get(tunable) != after.get(tunable),
-            near=_near(off.get((name, tunable)), live.get(tunable), after.get(tunable)),
+            near=_near(kinds.get(tunable), off.get((name, tunable)), live.get(tunable), after.get(tunable)),
             unit=kinds[tunable].unit if tunable in kinds else "",
             **_verdict((name, tunable), off, moved, by_light=is_reference(after.get(tunable))),
         )
@@ -160,9 +162,15 @@ def _value_rows(
     ]
 
 
-def _near(change: Change | None, live: Any, goal: Any) -> str:
-    """Return what is told beside a value that is not exactly right: of one that light finds why it is not."""
-    return change.text if change is not None and is_reference(goal) else f"({show_value(live)})"
+def _near(kind: Tunable | None, change: Change | None, live: Any, goal: Any) -> str:
+    """Return what is told beside a value that is not exactly right: by how much it deviates; of one that light finds
+    why it is not."""
+    if is_reference(goal):
+        return change.text if change is not None else f"({show_value(live)})"
+    if kind is None or not isinstance(live, int | float) or not isinstance(goal, int | float):
+        return ""
+    off = -angle_between(live, goal, kind.period) if kind.period else live - goal
+    return f"{off:+.3g} {kind.unit}".rstrip() if off else ""
 
 
 def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
@@ -177,6 +185,7 @@ def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes, *, by_light: 
         "drifted": is_off and drift is not None and not drift.tolerated,
         "exact": change is None and not by_light,
         "requested": change is not None and bool(change.requested),
+        "kept": change.aligned.goal if change is not None and change.aligned is not None else "",
     }
 
 
@@ -204,12 +213,13 @@ def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:
 
 def refuse_unapplied(
     setup: Setup, committed: LabState | None, desired: LabState, seen: Observation,
-    components: Collection[str] | None = None, *, unaligned: Mapping[str, str] = NOTHING,
+    components: Collection[str] | None = None, *, unaligned: Mapping[str, str] = NOTHING, unset: Collection[str] = (),
 ) -> None:  # fmt: skip
     """Raise PicoError where the manifest holds edits that the bench does not show: they were never applied.
 
     Edits of a part that nobody sees, or not surely, count as well: nobody can say that they were. `components`: only of
-    these. `unaligned`: see `compare`.
+    these. `unaligned`: see `compare`. `unset`: tunables with `restore: align` that kept their live values and never had
+    the numbers of the manifest.
     """
     edited = None if committed is None else {c.component for c in diff_states(setup, committed, desired)}
     among = edited if components is None else set(components) & (edited if edited is not None else set(components))
@@ -219,13 +229,16 @@ def refuse_unapplied(
     unsure = {row.component: row.note for row in rows if row.note}
     edits = [
         row for row in rows
-        if (row.edited or row.committed is None) and (row.off or (row.component in unsure and row.desired is not None))
+        if (row.edited or row.committed is None)
+        and (row.off or row.address in unset or (row.component in unsure and row.desired is not None))
     ]  # fmt: skip
     if edits:
         shown = [f"{row.address}{_why(unsure, row)}" for row in edits[:6]]
         names = ", ".join(shown) + (" and others" if len(edits) > 6 else "")
         light = [f"`pico optimize {row.address}`" for row in edits if row.address in unaligned]
-        first = light if len(light) == len(edits) else ["`pico apply`", *light]
+        named = [row.address for row in edits if row.address in unset]
+        light += [f"`pico apply -- {' '.join(named)}`"] if named else []
+        first = light if len(light) + max(0, len(named) - 1) == len(edits) else ["`pico apply`", *light]
         hint = (
             f"{', '.join(first)} first; or `--capture`: the bench wins; or `--planned`: the edit is committed, unproven"
         )

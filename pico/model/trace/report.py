@@ -45,8 +45,9 @@ class RunReport:
     the bench after a whole run. `measurements`: what was measured, by address; `goals`: those that were sought,
     `aligning`: what all that was there to bring light back took [s]; `read`: those that were measured where they stand.
     `evidence`: what the run counts as.
-    `by_light`: set-points that light has yet to find. `off`: how far parts that were placed stand from where the plan
-    has them, at most: `mm` and `deg`, of which `part` stands farthest off.
+    `by_light`: set-points that light has yet to find. `excepted`: what differs after a whole run and does not count:
+    light that is asked for, and values that stay where alignment has the last word. `off`: how far parts that were
+    placed stand from where the plan has them, at most: `mm` and `deg`, of which `part` stands farthest off.
     """
 
     schema: str = "pico.report/v1"
@@ -74,6 +75,7 @@ class RunReport:
     aligning: float | None = None
     read: tuple[GoalRead, ...] | None = None
     off: Mapping[str, str | float] | None = None
+    excepted: tuple[Change, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     def __repr__(self) -> str:
@@ -107,7 +109,8 @@ class Captured:
     """What a capture wrote: the changes from the manifest as it was to the live state, and the files, sorted.
 
     `written`: false where it was only asked for. `patch`: the lines, as a unified diff. `by_light`: set-points that it
-    leaves as they are, for light finds them, though the bench is elsewhere.
+    leaves as they are, for light finds them, though the bench is elsewhere. `aligned`: the addresses among the changes
+    that a goal found, by its name.
     """
 
     changes: tuple[Change, ...] = ()
@@ -115,6 +118,7 @@ class Captured:
     written: bool = True
     patch: str = ""
     by_light: tuple[str, ...] | None = None
+    aligned: Mapping[str, tuple[str, ...]] | None = None
 
 
 @record
@@ -122,8 +126,8 @@ class Committed:
     """A commit that was made: its id and message, what it changed against its parent, and the digest of its state.
 
     `captured`: what was taken from the bench for it. `realized`: the bench stood as the commit says when it was made.
-    `evidence`: what that rests on, on which `bench`. `runs`: the ids of the runs that it carries. `meta`: what `--meta`
-    recorded.
+    `aligned`: the addresses among these that a goal found, by its name. `evidence`: what that rests on, on which
+    `bench`. `runs`: the ids of the runs that it carries. `meta`: what `--meta` recorded.
     """
 
     commit: str
@@ -137,6 +141,7 @@ class Committed:
     bench: str | None = None
     runs: tuple[str, ...] = ()
     meta: Mapping[str, str] = field(default_factory=dict)
+    aligned: Mapping[str, tuple[str, ...]] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
 

@@ -1,0 +1,1 @@
+"""What the bench's own values are: those that met goals found, and that plans leave where they are."""
