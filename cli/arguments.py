@@ -39,6 +39,8 @@ Fidelity = Annotated[
 ]
 Yes = Annotated[bool, typer.Option("--auto-approve", "--yes", "-y", help="Do not ask.")]
 Exact = Annotated[bool, typer.Option("--exact", help="Move for less than the tolerance, too.")]
+RunBack = Annotated[str | None, typer.Argument(metavar="[RUN]", help="Its id, or how that begins or ends.")]
+OfPerson = Annotated[str | None, typer.Option("--of", metavar="NAME", help="Take back a run of this person.")]
 Align = Annotated[bool, typer.Option("--align", help="Then seek the goals that are not aligned.")]
 NoAlign = Annotated[bool, typer.Option("--no-align", help="Do not, though the lab's policy says so.")]
 DetailedExit = Annotated[bool, typer.Option("--detailed-exitcode", help="Exit with 2 where something would move.")]

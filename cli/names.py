@@ -27,7 +27,7 @@ RESERVED = {
 
 SELDOM = {
     "fmt", "import", "calibrate", "ruler", "data", "git", "bench", "doctor", "completion", "cherry-pick", "blame",
-    "stash", "swap", "budget", "devices", "edge",
+    "redo", "stash", "swap", "budget", "devices", "edge",
     "check", "commission", "serve", "remote", "login", "lease", "token",
 }  # fmt: skip
 """Commands that are set up once or asked for seldom: `pico help all` lists them, too."""

@@ -58,6 +58,8 @@ class Session:
     said: Mapping[str, Any] = field(default_factory=dict, compare=False)
     """The options that say which bench is meant, as far as they were given; see `hints.OPTIONS`."""
     told: list[Diagnostic] = field(default_factory=list, compare=False)
+    intended: list[str] = field(default_factory=list, compare=False)
+    """The command that is to be approved, in words."""
 
     @classmethod
     def of(cls, context: typer.Context) -> Session:

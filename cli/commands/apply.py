@@ -24,7 +24,7 @@ from ..arguments import (
     aligning,
     scope_of,
 )
-from ..runs.approving import approve
+from ..runs.approving import approve, called
 from ..session import Session
 
 CLASS = Scoped
@@ -80,6 +80,7 @@ def apply(
         "targets": scope_of(context),
         "exclude": exclude or (),
     }
+    called(session, bench, " ".join(["apply", *([what] if what else [])]), auto_approve)
     plan = bench.plans.plan_of(what, folder=session.folder, **options)
     if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:

@@ -9,7 +9,7 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, LockTimeout, Yes
-from ..runs.approving import approve
+from ..runs.approving import approve, called
 from ..session import Session
 
 Keys = Annotated[
@@ -35,6 +35,7 @@ def recover(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
+    called(session, bench, "recover", auto_approve)
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
             bench.recovery.answer(key, done=was_done)

@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import typer
 
 from ..arguments import Fidelity, LockTimeout, Speed, StopOnError, Yes
-from ..runs.approving import approve
+from ..runs.approving import approve, called
 from ..session import Session
 
 
 def resume(
     context: typer.Context,
+    run: Annotated[
+        str | None, typer.Argument(metavar="[RUN]", help="The last run, to be sure that it is meant.")
+    ] = None,
     auto_approve: Yes = False,
     fidelity: Fidelity = None,
     speed: Speed = None,
@@ -28,5 +33,9 @@ def resume(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, speed, writing=True)
-    plan, run = bench.recovery.resume_plan()
-    return approve(session, bench, plan, auto_approve, resumes=run, stop_on_error=stop_on_error)
+    if auto_approve and run is None:
+        bench.recovery.require_named("resume")
+    session.tell(bench.recovery.killed_early())
+    called(session, bench, "resume", auto_approve)
+    plan, last = bench.recovery.resume_plan(run)
+    return approve(session, bench, plan, auto_approve, resumes=last, stop_on_error=stop_on_error)

@@ -4,22 +4,28 @@ from __future__ import annotations
 
 import typer
 
-from ..arguments import Fidelity, LockTimeout, Speed, Yes
-from ..runs.approving import approve
+from ..arguments import Fidelity, LockTimeout, OfPerson, RunBack, Speed, Yes
+from ..runs.approving import approve, called
 from ..session import Session
 
 
 def undo(
-    context: typer.Context, auto_approve: Yes = False, fidelity: Fidelity = None, speed: Speed = None,
-    lock_timeout: LockTimeout = None,
+    context: typer.Context, run: RunBack = None, of: OfPerson = None, auto_approve: Yes = False,
+    fidelity: Fidelity = None, speed: Speed = None, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
-    """Take back what the last run moved or set.
+    """Take back what the last run changed on the bench.
 
-    Files stay as they are. Undone twice, it is as the run left it. At the lab's speed, whatever the run was told.
+    Runs that set something to measure and set it back are skipped. A run that is named must still be in place. Light
+    stays off, and files as they are. Undone twice, it is as the run left it, as with `pico redo`.
 
     Examples:
       pico undo
+      pico undo 8cd36b
     """
     session = Session.of(context)
     bench = session.bench(fidelity, speed, writing=True)
-    return approve(session, bench, bench.recovery.undo_plan(), auto_approve)
+    if auto_approve and run is None:
+        bench.recovery.require_named("undo", of)
+    session.tell(bench.recovery.killed_early())
+    called(session, bench, "undo", auto_approve)
+    return approve(session, bench, bench.recovery.undo_plan(run, of=of), auto_approve)

@@ -52,6 +52,18 @@ def approve(
     return execute(session, bench, plan, record, **options)
 
 
+def called(session: Session, bench: Bench, command: str, approved: bool) -> None:
+    """Keep what somebody called and approved, until the command ends; not yet, where they are still to be asked."""
+    session.intended[:] = [command]
+    if approved:
+        _intend(session, bench)
+
+
+def _intend(session: Session, bench: Bench) -> None:
+    if session.context is not None and session.intended:
+        session.context.call_on_close(bench.recovery.intend(session.intended.pop()))
+
+
 def declined(
     session: Session, bench: Bench, plan: Plan, auto_approve: bool, otherwise: str = "Nothing moved."
 ) -> ExitCode:
@@ -61,6 +73,7 @@ def declined(
     if plan.operations:
         session.say("")
     if not asked or session.confirm(asked, auto_approve):
+        _intend(session, bench)
         return ExitCode.DONE
     session.say(otherwise)
     return ExitCode.ERROR
@@ -78,6 +91,9 @@ def single(
 ) -> int:
     """Plan one operation, show it, ask, and run it."""
     bench = session.bench(fidelity, speed, writing=not dry_run)
+    if not dry_run:
+        words = [f"{key}={value}" for key, value in arguments.items()]
+        called(session, bench, " ".join(["do", component, primitive, *words]), auto_approve)
     plan = bench.plans.single(component, primitive, arguments)
     asked = arguments if primitive == "set" else ("pose",) if primitive in ("move", "stow") else ()
     off: tuple[Change, ...] = ()

@@ -64,7 +64,7 @@ def deed(d: Run) -> str:
     if d.cause.recipe and d.cause.kind == "recipe":
         name = shown(str(d.cause.recipe).partition("@")[0])
         return f"recipe {name}" if goal in ("", name) else f"{name}: {goal}"
-    if d.cause.kind in ("undo", "resume", "recover") or not d.cause.kind:
+    if d.cause.kind in ("undo", "redo", "resume", "recover") or not d.cause.kind:
         of = f" {shown(d.cause.of)}" if d.cause.of else ""
         return f"{shown(d.cause.kind)}{of}" if d.cause.kind else goal
     return goal if d.cause.kind in ("single", "teleoperation") else f"{shown(d.cause.kind)} {goal}"

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.in_use import goes_on
 from pico.bench.opened import Opened
+from pico.bench.undo.intention import told
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge.network.opening import remembered
 from pico.edge.protocol import RECIPE, RECORDING, STEERING
@@ -46,7 +47,7 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
     doses = opened.wait(opened.edge.doses())
     lost = (problem for problem in seen.problems if problem.code == LOST)
-    return (*unattended(opened), *lost, *cut, *(note for one in doses for note in _dose(one)))
+    return (*unattended(opened), *lost, *told(opened.place), *cut, *(note for one in doses for note in _dose(one)))
 
 
 def _dose(one: Dose) -> Iterator[Diagnostic]:

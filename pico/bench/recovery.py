@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -10,13 +10,15 @@ from pico.bench.cut_short import not_left, unattended
 from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
+from pico.bench.undo import intention
+from pico.bench.undo.choice import begun_by, called, chosen, document_of, not_in_place
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.address import renamed_state, renaming_of
 from pico.model.comparing.drift import drift_of
-from pico.model.observation import Observation, live_state
+from pico.model.diff import deviation
+from pico.model.observation import Observation, live_state, slot_at
 from pico.model.operation import Operation, touched_by
-from pico.model.plan import Plan, Target, plan_from_json
-from pico.model.primitive import primitive
+from pico.model.plan import Plan, Target
 from pico.model.state import LabState, state_from_json, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.planning.parts.phrases import listed
@@ -39,18 +41,44 @@ class Recovery:
     def __init__(self, opened: Opened) -> None:
         self.opened = opened
 
-    def resume_plan(self) -> tuple[Plan, str]:
-        """Return the plan from the bench as it stands to the goal of the last run, and the id of that run.
+    def intend(self, command: str) -> Callable[[], None]:
+        """Keep that a command was approved, and return what to call at its end; see `pico.bench.undo.intention`."""
+        return intention.keep(self.opened.place, command)
+
+    def killed_early(self) -> tuple[Diagnostic, ...]:
+        """Return that what was called last was killed before it moved anything."""
+        return intention.told(self.opened.place)
+
+    def require_named(self, command: str, of: str | None = None) -> None:
+        """Raise PicoError if what was called last was killed before it moved anything, so that `command`, which nobody
+        is asked about, would be about a run before that."""
+        memory = self.opened.edge.memory
+        if memory is None or intention.killed(self.opened.place) is None:
+            return
+        if command == "resume":
+            intention.require_named(self.opened.place, command, called(memory, _last(self.opened.place, memory)))
+        found = chosen(self.opened.setup, memory, None, of, undone=command == "redo")
+        intention.require_named(self.opened.place, command, called(memory, found.run))
+
+    def resume_plan(self, run: str | None = None) -> tuple[Plan, str]:
+        """Return the plan from the bench as it stands to the goal of the last run, and the id of that run. run: that
+        id, for whoever wants to be sure.
 
         Raises PicoError where the last run reached its end, or is still going on (exit code LOCKED), and where only
         what brings about no state is left of it, such as a measurement.
         """
         from pico.execution.resume import renumbered
+        from pico.history.runs.benches import fits, refuse_of_another
         from pico.planning import PlanGoal
 
         memory = self._memory()
         refuse_in_use(self.opened)
+        if run is not None and not any(fits(run, one.run) for one in memory.runs()):
+            refuse_of_another(self.opened.place, run, f"resume {run}")
         last = _last(self.opened.place, memory)
+        if run is not None and not (run and fits(run, last.run)):
+            text = f"only the last run can be taken up again, and that is {called(memory, last)}"
+            raise PicoError(error("not-last", text, hint=f"`pico resume {last.run}`, or `pico undo {run}`"))
         sought = _cut_goals(memory, last.run)
         if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
@@ -79,41 +107,53 @@ class Recovery:
         plan = replace(plan, diagnostics=(*self._elsewhere("resume"), *left, *plan.diagnostics))
         return renumbered(plan, last.resumed + 1), last.run
 
-    def undo_plan(self) -> Plan:
-        """Return the plan that takes everything that the last run moved or set back to where it was before, exactly.
+    def undo_plan(self, run: str | None = None, *, of: str | None = None) -> Plan:
+        """Return the plan that takes everything that a run moved or set back to where it was before.
 
-        Runs that only emptied hands since belong to the one that they tidied up after. A part that a hand held when the
-        run began goes to where it stood before that. What nobody knew before it is left as it is; where something else
-        has changed since, the plan is for what the run changed alone. Raises PicoError where no run has moved anything.
+        run: its id, or how that begins or ends; None: the last one that left the bench otherwise than it found it,
+        beyond tolerance, or was cut short. of: whose it is, for a run of another person. A run that is named must still
+        be in place. Runs that only emptied hands since belong to the one that they tidied up after. A part that a hand
+        held when the run began goes to where it stood before that. What nobody knew before it is left as it is; where
+        something else has changed since, the plan is for what the run changed alone. Raises PicoError.
         """
+        return self._taken_back(run, of, "undo")
+
+    def redo_plan(self, run: str | None = None, *, of: str | None = None) -> Plan:
+        """Return the plan that takes an undo back: the last run, if it is one, or the one that is named, by its id or
+        by that of the run that it took back. Raises PicoError if the bench does not stand as it left it any more."""
+        return self._taken_back(run, of, "redo")
+
+    def _taken_back(self, run: str | None, of: str | None, cause: str) -> Plan:
+        from pico.history.runs.benches import fits, refuse_of_another
         from pico.planning import PlanGoal
 
-        memory = self._memory()
+        memory, setup = self._memory(), self.opened.setup
         refuse_in_use(self.opened)
-        moving = memory.moving()
-        runs = [run for run in reversed(memory.runs()) if run.run in moving]
-        last = next((n for n, run in enumerate(runs) if document_of(memory, run).target.cause != "recover"), None)
-        if last is None:
-            raise PicoError(_no_run(self.opened.place))
-        self._as_before(memory)
-        names = renaming_of(self.opened.setup.lab)
-        done = {(names.get(c, c), t) for run in runs[: last + 1] for c, t in begun_by(memory, run)}
-        before, held = state_before(self.opened.setup, memory, runs[last:], {component for component, _ in done})
+        if run is not None and not any(fits(run, one.run) for one in memory.runs()):
+            refuse_of_another(self.opened.place, run, f"{cause} {run}")
+        found = chosen(setup, memory, run, of, undone=cause == "redo")
+        if not self.opened.asked:
+            self.opened.suit(found.plan)
+        names = renaming_of(setup.lab)
+        done = {(names.get(c, c), t) for own in found.runs[: found.at + 1] for c, t in begun_by(memory, own)}
+        before, held = state_before(setup, memory, found.runs[found.at :], {component for component, _ in done})
         looked = self.opened.observe()
+        if (found.explicit or cause == "redo") and (wrong := not_in_place(setup, memory, looked, found)):
+            raise PicoError(wrong)
         seen = self._emptied(looked)
-        live = live_state(self.opened.setup, seen)
-        wanted = replace(live, components={**live.components, **before.components})
-        off = {(c.component, c.tunable) for c in drift_of(self.opened.setup, seen, wanted) if not c.tolerated}
+        live = live_state(setup, seen)
+        wanted = replace(live, components={**live.components, **in_slots(setup, seen, before).components})
+        off = {(c.component, c.tunable) for c in drift_of(setup, seen, wanted) if not c.tolerated}
         only = _addresses(done, off - done) if off - done else ()
         # what light found matters below the tolerance of its axis, too; a part is put down only so well
-        numbers = all(tunable in self.opened.setup.type_of(component).tunables for component, tunable in done)
+        numbers = all(tunable in setup.type_of(component).tunables for component, tunable in done)
         taken = f", with {listed(held)} where it was picked" if held else ""
-        target = Target(
-            title=f"the bench before {runs[last].run}{taken}", only=only or None, cause="undo", of=runs[last].run
-        )
+        title = f"the bench before {found.run.run}{taken}"
+        target = Target(title=title, only=only or None, cause=cause, of=found.run.run)
         targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
         goal = PlanGoal(wanted, target, exact=numbers, targets=targets)
-        return Plans(self.opened).to_state(looked, goal, told=self._elsewhere("undo"))
+        note = Diagnostic("note", cause, f"this takes back {called(memory, found.run)}")
+        return Plans(self.opened).to_state(looked, goal, told=(note, *self._elsewhere(cause)))
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement
@@ -220,16 +260,6 @@ def _goes_on(memory: Memory) -> str:
     return f"`{' '.join(filter(None, words))}` goes on with {run.run}, which was cut short before that"
 
 
-def begun_by(memory: Memory, run: RunRecord, *, ended: bool = True) -> Iterator[tuple[str, str]]:
-    """Yield the components with their tunables that the operations change which a run began; without those that it
-    `ended`, where that is False."""
-    records = memory.records(run=run.run)
-    begun = {r.key for r in records if r.kind == "started"} - {r.key for r in records if r.kind == "done" and not ended}
-    for record in records:
-        if record.kind == "intent" and record.key in begun and primitive(record.data["primitive"]).changes != "nothing":
-            yield from touched_by(record.component, record.data["arguments"])
-
-
 def state_before(
     setup: Setup, memory: Memory, runs: Sequence[RunRecord], touched: Collection[str]
 ) -> tuple[LabState, list[str]]:
@@ -246,6 +276,19 @@ def state_before(
             break
     known = {name: part for name, part in parts.items() if name in setup.lab.inventory}
     return LabState(lab=setup.lab.name, components=known), [name for name in held if name in known]
+
+
+def in_slots(setup: Setup, seen: Observation, before: LabState) -> LabState:
+    """Return a state with the slots by name of parts that stood right in them and stand elsewhere now."""
+    parts = dict(before.components)
+    for name, part in before.components.items():
+        slot = slot_at(setup, part.pose) if part.pose and setup.movable(name) else None
+        live = seen.components.get(name)
+        away = live is None or live.pose is None or slot_at(setup, live.pose) != slot
+        if slot and part.pose and away:
+            right = deviation(setup, name, part.pose, None, setup.lab.slots[slot].pose) != "off"
+            parts[name] = replace(part, slot=slot, pose=None) if right else part
+    return replace(before, components=parts)
 
 
 def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, str]]) -> tuple[str, ...]:
@@ -316,14 +359,6 @@ def _left_out(
             told.add(command)
             text = f"`{command}` did not come to its end, and is not taken up again"
             yield Diagnostic("note", "left-out", text, hint=f"`{command}` does it anew", address=op.component)
-
-
-def document_of(memory: Memory, run: RunRecord) -> Plan:
-    """Return the plan that a run began with; raises PicoError where it was not kept."""
-    text = memory.document(run.run)
-    if text is None:
-        raise PicoError(error("no-plan", f"the journal did not keep the plan of the run {run.run}", hint="`pico plan`"))
-    return plan_from_json(text)
 
 
 def _last(place: Place, memory: Memory) -> RunRecord:

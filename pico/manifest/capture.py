@@ -24,8 +24,9 @@ def capture(
     """Return the manifests that must change for the files' state (`wanted`) to say what `live` is.
 
     Only values that differ beyond tolerance change, those that light `found` (by address) also within it, and of these
-    only those `named`. A component that no file names is put into the file that holds most. `known`: the parts of the Lab that the files describe, if it is not that of
-    `setup`. Raises PicoError for files that hold no LabState, or one that can't be written to.
+    only those `named`. A component that no file names is put into the file that holds most. `known`: the parts of the
+    Lab that the files describe, if it is not that of `setup`. Raises PicoError for files that hold no LabState, or one
+    that can't be written to.
     """
     return with_changes(files, setup, differences(setup, wanted, live, named, found), known)
 

@@ -46,8 +46,8 @@ class Target:
 
     `title`: what it is where it is neither (the bench before a run). `only`: the components and tunables (`p2`,
     `p1.angle`) that were asked for; `exclude`: those that were to be left alone. None for a whole plan. `expect`: what
-    is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `recover`,
-    `heal`; `single`: for one operation that somebody asked for; `teleoperation`; `recording`, and `recipe`
+    is expected of the bench then. `cause`: why it was made, where not for itself (`checkout`, `undo`, `redo`,
+    `recover`, `heal`; `single`: for one operation that somebody asked for; `teleoperation`; `recording`, and `recipe`
     without operations: for a run whose operations are asked for while it is open), and `of` which run; `recipe`: of
     which run of a recipe (`NAME@ID`) it is, or is a `step`. `align`: goals that are not aligned then
     are sought at its end.

@@ -44,7 +44,8 @@ def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[st
     """Return what is otherwise by what other runs moved or set after one that was cut short, and these runs in their
     order. Apart from that is what the run itself was at when it was cut short, and what only emptied hands. Raises
     PicoError where the journal can't be read."""
-    from pico.bench.recovery import begun_by, document_of, state_before
+    from pico.bench.recovery import state_before
+    from pico.bench.undo.choice import begun_by, document_of
     from pico.model.comparing.drift import drift_of
     from pico.model.observation import live_state
 

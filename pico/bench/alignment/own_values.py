@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from pico.diagnostics import PicoError
 from pico.model.address import holds, read_addresses
@@ -16,38 +16,51 @@ from pico.model.state import LabState, place_of
 from pico.planning.aligned_values import GoalMet, equal, goals_by_tunable, left_to_light, off_by_goal
 
 if TYPE_CHECKING:
-    from pico.bench.opened import Opened
+    from pico.edge.network.remotes import Place
+    from pico.edge.protocol import Edge
     from pico.history.lab.folder import LabFolder
     from pico.runs.memory import Memory
 
-_EVIDENCE = {"hardware": ("hardware",), "emulated": ("emulated",)}
-"""Of which evidence a commit's goals must be to count on a bench; on any other, a simulated one, these all do."""
-_SIMULATED = ("kinematic", "physics")
+_EVIDENCE = {"sim": ("kinematic", "physics"), "emulated": ("emulated",)}
+"""Of which evidence a commit's goals must be to count on a bench, by its name; on any other only those of hardware."""
 _BACK = 20
 """Commits that are looked back for the one that recorded how a goal stood."""
 
 
+class Bench(Protocol):
+    """A bench with its lab's folder and its edge; `pico.bench.opened` is one."""
+
+    @property
+    def folder(self) -> LabFolder: ...
+
+    @property
+    def edge(self) -> Edge: ...
+
+    @property
+    def place(self) -> Place: ...
+
+
 def with_own_values(
-    opened: Opened, seen: Observation, wanted: LabState, *, revision: str | None = None, named: Collection[str] = ()
+    opened: Bench, seen: Observation, wanted: LabState, *, revision: str | None = None, named: Collection[str] = ()
 ) -> Observation:
     """Return an observation with the tunables that stay at their live values when the bench is brought to a state.
 
     revision: where the state comes from; the manifest for None. named: components and tunables that somebody asked for:
     these are driven. Where the journal can't be read none stays, and whoever needs it says why.
     """
-    off = {a for addresses in off_by_goal(opened.setup, seen, wanted).values() for a in addresses}
-    asked = read_addresses(opened.setup, named) if off and named else {}
+    off = {a for addresses in off_by_goal(opened.folder.setup, seen, wanted).values() for a in addresses}
+    asked = read_addresses(opened.folder.setup, named) if off and named else {}
     off = {a for a in off if not holds(asked, *a.split("."))}
     if not off:
         return replace(seen, aligned=None)
     try:
-        return own_values(opened.folder, opened.edge.memory, seen, wanted, opened.backend_name, revision, off)
+        return own_values(opened.folder, opened.edge.memory, seen, wanted, opened.place.title, revision, off)
     except PicoError:
         return replace(seen, aligned=None)
 
 
 def own_values(
-    folder: LabFolder, memory: Memory | None, seen: Observation, wanted: LabState, backend: str,
+    folder: LabFolder, memory: Memory | None, seen: Observation, wanted: LabState, bench: str,
     revision: str | None = None, among: Collection[str] | None = None,
 ) -> Observation:  # fmt: skip
     """Return an observation with the tunables that stay, `among` some by address, as `with_own_values` does. Raises
@@ -57,10 +70,13 @@ def own_values(
     addresses = {a for some in off.values() for a in some}
     if memory is None or not addresses:
         return replace(seen, aligned=None)
-    met = [*met_here(setup, memory, off), *_recorded(folder, seen, wanted, backend, revision, off)]
     from pico.runs.when_met import not_set_by_plans
 
-    found = left_to_light(setup, seen, wanted, met, not_set_by_plans(memory, addresses))
+    met, own = [*met_here(setup, memory, off)], not_set_by_plans(memory, addresses)
+    found = left_to_light(setup, seen, wanted, met, own)
+    if found:  # what commits recorded takes longer to read, and only drives what would stay
+        recorded = _recorded(folder, bench, revision, off)
+        found = left_to_light(setup, seen, wanted, [*met, *recorded], own)
     kept = {address: one for address, one in found.items() if among is None or address in among}
     return replace(seen, aligned=kept or None)
 
@@ -109,7 +125,7 @@ def never_set(setup: Setup, memory: Memory | None, seen: Observation, wanted: La
 
 
 def _recorded(
-    folder: LabFolder, seen: Observation, wanted: LabState, backend: str, revision: str | None, off: Collection[str]
+    folder: LabFolder, bench: str, revision: str | None, off: Collection[str]
 ) -> Iterator[GoalMet]:  # fmt: skip
     """Yield how goals were met as the commit of a state recorded it, or one before it that gives their tunables the
     same numbers."""
@@ -117,7 +133,7 @@ def _recorded(
 
     head = folder.head() if folder.repository else None
     commit = folder.history().resolve(revision).id if revision else head.commit if head else None
-    counted = _EVIDENCE.get(backend, _SIMULATED)
+    counted = _EVIDENCE.get(bench, ("hardware",))
     for _ in range(_BACK):
         if commit is None:
             return

@@ -38,7 +38,7 @@ OPERATION_ENDS = ("done", "failed", "unknown", "skipped")
 class Cause:
     """Why a run was started.
 
-    `kind`: `apply`, `checkout`, `single`, `undo`, `recover`, `resume`, `heal`, `bisect`, `recipe`, `optimizer`,
+    `kind`: `apply`, `checkout`, `single`, `undo`, `redo`, `recover`, `resume`, `heal`, `bisect`, `recipe`, `optimizer`,
     `teleoperation`, `recording` (of a script), or empty where the journal did not keep it. `of`: the run that it undoes
     or goes on with. `recipe`, `step`: which.
     """

@@ -19,7 +19,7 @@ def compared(draft: Draft) -> Draft:
     """Return the plan with what differs and which of it is asked for, and warnings about parts that can't be planned
     for. Raises PicoError for a target that the lab does not have."""
     setup, seen, goal = draft.setup, draft.seen, draft.goal
-    samples = bool(goal.alone) or goal.target.cause in ("undo", "recover")
+    samples = bool(goal.alone) or goal.target.cause in ("undo", "redo", "recover")
     only = selection(setup, goal.targets, goal.exclude, samples=samples)
     changes = diff_observed(setup, seen, goal.wanted, exact=goal.exact)
     found = (*_problems(seen, goal.wanted), *_absences(setup, seen, goal.wanted), *_doubts(setup, seen, goal.wanted))

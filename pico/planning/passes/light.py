@@ -24,7 +24,7 @@ def light_withheld(draft: Draft) -> Draft:
     asked = [c for c in draft.changes if c.requested and not c.tolerated and draft.only.chosen(c.component, c.tunable)]
     made = {(c.component, c.tunable): value_operations(setup, seen, (c,))[0] for c in asked}
     opening = {one: ops for one, ops in made.items() if any(lets_out(setup, op) for op in ops)}
-    if draft.goal.target.cause == "undo":
+    if draft.goal.target.cause in ("undo", "redo"):
         return replace(draft, withheld={one: {} for one in opening})
     lasers = unlicensed(setup, seen, [op for ops in opening.values() for op in ops])
     own = {one: _of(setup, one[0], lasers) for one in opening}

@@ -113,7 +113,8 @@ COMMANDS: Mapping[str, Command] = {
     "run": _moves("-p=", "--param=", "--dry-run", "--until=", "--resume", "--unattended"),
     "runs replay": _moves(),
     "set": _moves("--dry-run", "--manifest"),
-    "undo": _moves(),
+    "redo": _moves("--of="),
+    "undo": _moves("--of="),
 }  # fmt: skip
 """The commands of a desk by name. Where a role is not enough at the bench, that says so."""
 

@@ -1,0 +1,106 @@
+"""What somebody called last on a bench and approved, kept from the approval to the end of the command.
+
+A command that is killed while it looks or plans leaves no run. Its intention stays on the disk, and `status`, `undo`
+and `resume` say so. The file is locked as long as the command lives; if it is killed, the kernel lets go of the lock.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import json
+import os
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.edge.lease import user, utc_now
+from pico.edge.network.opening import remembered
+from pico.model.record import as_json, record
+
+if TYPE_CHECKING:
+    from pico.edge.network.remotes import Place
+
+
+@record
+class Intention:
+    """A command that was approved. `at`: when (the wall, ISO 8601, UTC); `operator`: by whom; `last`: the number of
+    the run that had moved something last by then."""
+
+    command: str
+    at: str
+    operator: str = ""
+    last: int = 0
+
+
+def keep(place: Place, command: str) -> Callable[[], None]:
+    """Write that a command was approved, and return what to call at its end. A disk that is full, or a folder that
+    can't be written to, keeps no command from running."""
+    path = _path(place)
+    found = Intention(command=command, at=utc_now(), operator=user(), last=_last(place))
+    try:
+        file = path.open("a+")  # of a bench that has no folder yet there is nothing to undo
+        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        file.truncate(0)
+        file.write(json.dumps(as_json(found)))
+        file.flush()
+        os.fsync(file.fileno())
+    except OSError:  # another command is at it, which says so itself, or nothing can be written
+        return lambda: None
+
+    def end() -> None:
+        with suppress(OSError):
+            path.unlink()
+        file.close()
+
+    return end
+
+
+def killed(place: Place) -> Intention | None:
+    """Return the command that was approved last, if it was killed before any run of it began to move something."""
+    path = _path(place)
+    try:
+        with path.open() as file:
+            fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
+            found = Intention(**json.loads(file.read()))
+    except (OSError, ValueError, TypeError):
+        return None  # none, one that goes on, or one that was killed while it was written
+    return None if _last(place) > found.last else found
+
+
+def told(place: Place) -> tuple[Diagnostic, ...]:
+    """Return that what was called last was killed before it moved anything."""
+    found = killed(place)
+    if found is None:
+        return ()
+    return (warning("killed-early", _text(found), hint=f"`pico {found.command}` does it; nothing has changed"),)
+
+
+def require_named(place: Place, command: str, run: str) -> None:
+    """Raise PicoError if what was called last was killed before it moved anything: `command` without a run, and without
+    a question, would then be about the run before it, `run`."""
+    from pico.diagnostics import error
+
+    if (found := killed(place)) is not None:
+        raise PicoError(error("killed-early", f"{_text(found)}; `pico {command}` would be about {run}",
+                              hint=f"`pico {command} {run.split()[1]}` says that this is meant"))  # fmt: skip
+
+
+def _text(found: Intention) -> str:
+    when = f"{found.at[:16].replace('T', ' ')} UTC"
+    return f"what was called last (`pico {found.command}`, {when}) was killed before it moved anything"
+
+
+def _path(place: Place) -> Path:
+    return place.folder / "called.json"
+
+
+def _last(place: Place) -> int:
+    """Return the number of the run that began last to move something."""
+    try:
+        with remembered(place) as memory:
+            moving = memory.moving() if memory else frozenset()
+            return max((run.number for run in memory.runs() if run.run in moving), default=0) if memory else 0
+    except PicoError:  # a journal that can't be read is told by who needs it
+        return 0
