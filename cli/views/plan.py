@@ -76,11 +76,9 @@ def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, 
 def operations(plan: Plan) -> list[str]:
     """Return one line an operation, two where the reason is long."""
     changes = {op.id: change_of(plan, op) for op in plan.operations}
-    moving, several = any(op.robot for op in plan.operations), len(arms(plan)) > 1
-    rows = [
-        [*_cells(op, changes[op.id], several), _why(op, changes[op.id], plan.target.name, moving, several)]
-        for op in plan.operations
-    ]
+    several = len(arms(plan)) > 1
+    whys = reasons(plan)
+    rows = [[*_cells(op, changes[op.id], several), why] for op, why in zip(plan.operations, whys, strict=True)]
     lines = columns([row[:-1] for row in rows], indent="  ")
     whole = []
     room = max((width(line) for line in lines), default=0)
@@ -170,13 +168,21 @@ def timelines(plan: Plan) -> list[str]:
     return columns(rows, indent="  ")
 
 
-def _why(op: Operation, change: Change | None, target: str, moving: bool, several: bool) -> str:
-    said = reason(op.reason, change)
-    if (change and op.primitive == "set" and said == change.text) or not said:  # it stands beside it already
-        said = {"changed": f"as {target} says", "asked": "as asked"}.get(op.reason.kind, "")
-    beside = "beside the arm" if moving and not op.robot and op.reason.kind not in ("interlock", "align") else ""
-    beside = beside if op.kind.drives and not several else ""
-    return ", ".join(part for part in (said, beside) if part)
+def reasons(plan: Plan) -> list[str]:
+    """Return why each operation of a plan is in it, in words, and whether it is done beside the arm; none is empty."""
+    target, several = plan.target, len(arms(plan)) > 1
+    says = f"as {target.revision or 'the manifest'} says" if target.revision or not target.title else "as wanted"
+    general = {"changed": "as before that run" if target.cause in ("undo", "redo") else says, "asked": "as asked"}
+    moving, found = any(op.robot for op in plan.operations), []
+    for op in plan.operations:
+        change = change_of(plan, op)
+        said = reason(op.reason, change)
+        if not said or (change and op.primitive == "set" and said == change.text):  # it stands beside it already
+            said = general.get(op.reason.kind, "needed for the rest")
+        beside = moving and not op.robot and op.reason.kind not in ("interlock", "align")
+        beside = beside and op.kind.drives and not several
+        found.append(f"{said}, beside the arm" if beside else said)
+    return found
 
 
 def reason(why: Reason, change: Change | None = None) -> str:
