@@ -51,6 +51,8 @@ class Serial:
     off: float = 0.0
     status: int | None = None
     busy: int = 0
+    """How often it says that it turns still; below 0 until it is stopped."""
+    turning: bool = False
     jog: int = elliptec.HOMED
     at: float = 0.0
     sent: list[str] = field(default_factory=list)
@@ -79,9 +81,15 @@ class Serial:
             goal = int(command[2:], 16) if name == "ma" else 0
             self.at = (goal - (1 << 32 if goal >> 31 else 0)) * 360 / PULSES + self.off
             self.say("5", "PO00000000")  # another mount on the line
+            self.turning = self.busy < 0
             for _ in range(self.busy):
                 self.say(address, "GS09")
+            if self.turning:
+                return
             self.say(address, f"GS{self.status:02X}" if self.status is not None else self.position())
+        elif name == "st":
+            self.turning = False
+            self.say(address, "GS00")
         elif name == "gp":
             self.say(address, self.position())
         else:
@@ -94,7 +102,7 @@ class Serial:
         self.waiting.append(f"{address}{words}\r\n".encode())
 
     def read_until(self, end: bytes) -> bytes:
-        return self.waiting.pop(0) if self.waiting else b""
+        return self.waiting.pop(0) if self.waiting else b"2GS09\r\n" if self.turning else b""
 
 
 def rotator(line: Serial, limits_: Any = None) -> tuple[elliptec.Rotator, Bus[Any]]:
@@ -139,7 +147,7 @@ def test_a_mount_is_waited_for_while_it_is_busy(busy: int, off: float) -> None:
 
 def test_a_mount_that_never_comes_to_rest_is_stopped_and_told(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(elliptec, "LONGEST", 0.05)
-    line = Serial(busy=1_000)
+    line = Serial(busy=-1)
     assert asked(lambda axis: axis.move_to(45.0), *rotator(line)) == "device-late"
     assert "st" in line.sent
 
@@ -174,7 +182,7 @@ def test_an_angle_below_zero_is_read_as_such(angle: float) -> None:
 
 
 def test_a_mount_that_is_stopped_goes_nowhere_any_more() -> None:
-    line = Serial(busy=1_000)
+    line = Serial(busy=-1)
     axis, bus = rotator(line)
 
     async def go() -> str:
@@ -221,7 +229,7 @@ def test_only_a_whole_answer_of_this_mount_to_this_question_is_its_angle(
 def test_a_mount_that_answers_by_a_fault_or_not_at_all_has_no_angle(
     answer: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(elliptec, "_REPLY", 0.02)
+    monkeypatch.setattr(elliptec, "_REPLY", 60.0 if answer else 0.02)
     monkeypatch.setattr(Serial, "position", lambda self: answer[1:] if answer else "XX")
     found = asked(lambda axis: axis.position(), *rotator(Serial(at=12.0)))
     assert found == ("device-fault" if answer else "device-lost")
@@ -562,7 +570,7 @@ def test_a_contact_is_safe_where_a_fresh_answer_says_that_it_is_closed(reads: st
 
     async def twice(one: Any) -> Any:
         first, second = await one.read(), await one.read()
-        return [(first.safe, first.age < 1.0), (second.safe, second.age < 1.0)]
+        return [(first.safe, first.age < 60), (second.safe, second.age < 60)]
 
     one, bus = spoken(scpi.SafetyInput, link)
     first, second = asked(twice, one, bus)
@@ -613,7 +621,7 @@ def boxed(kind: Any, box: Box) -> tuple[Any, Bus[Any]]:
 def test_a_shutter_of_a_box_is_what_its_sensor_says_and_as_not_wanted_where_that_is_unknown(
     wanted: bool, reads: list[bool | None], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(switches, "_TRAVEL", 0.06)
+    monkeypatch.setattr(switches, "_TRAVEL", 60.0 if wanted in reads else 0.03)
     box = Box(reads=list(reads))
     found = asked(lambda one: one.open(wanted), *boxed(switches.SwitchedShutter, box))
     last = wanted if wanted in reads else reads[-1]
