@@ -8,6 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from .at_once.complete import SHARED, plain
+from .commands import files
 
 NOWHERE = frozenset({"completion", "help", "init", "login", "serve", "token"})
 """Commands that ask neither a bench nor the folder of a lab."""
@@ -62,7 +63,7 @@ def _flagged(rest: str, flags: Iterable[str]) -> str:
     """Return a command between backticks, of which `rest` follows the word `pico`."""
     words = _words(rest)
     names = plain(words, SHARED)
-    if "--help" in words or (names[:1] and names[0] in NOWHERE):
+    if "--help" in words or not names or names[0] in NOWHERE or names[0] not in files():
         return f"`pico{rest}`"
     lab_alone = bool({" ".join(names[:1]), " ".join(names[:2])} & FILES) or any(one in words for one in _BENCH)
     own = [flag for flag in flags if not _left_out(flag.partition(" ")[0], words, lab_alone)]

@@ -35,7 +35,7 @@ SELDOM = {
 MOVING = {
     "apply", "bisect", "bisect continue", "bisect good", "bisect bad", "bisect run", "bisect skip", "bisect start",
     "bisect step", "calibrate", "checkout", "commission", "do", "laser", "laser arm", "move", "optimize", "recover",
-    "resume", "run", "runs replay", "set", "teleop", "undo",
+    "redo", "resume", "run", "runs replay", "set", "teleop", "undo",
 }  # fmt: skip
 """Commands that move something or let light out: never offered for a word that is misspelt, for who takes the offer
 without reading moves the bench. What is meant is read in the list of commands."""

@@ -136,10 +136,14 @@ def did_you_mean(word: str, known: Iterable[str], alike: float = 0.6) -> str:
 
 def _likeness(word: str, name: str) -> float:
     """Return how alike two words are, 0 to 1: by the letters to be changed, added, left out or swapped with the next
-    one (Damerau's distance in its restricted form); the beginning of a name is nearly the name."""
+    one (Damerau's distance in its restricted form), or by the runs of letters that they share, as `thru` and `through`;
+    the beginning of a name is nearly the name."""
+    import difflib
+
     if len(word) >= _BEGUN and name.startswith(word):
         return max(0.9, len(word) / len(name))
-    return 1.0 - _changes(word, name) / max(len(word), len(name), 1)
+    changed = 1.0 - _changes(word, name) / max(len(word), len(name), 1)
+    return max(changed, difflib.SequenceMatcher(None, name, word).ratio())
 
 
 def _changes(a: str, b: str) -> int:

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from pico.bench.bench import Bench
 
 app = group(
-    help="Act on the simulated world, as a hand would; alone, show what is hidden in it.",
+    help="Act on the simulated world; alone, list its hidden changes.",
     examples=("pico sim nudge p2 --dx 5", "pico sim faults drop=0.05 seed=3", "pico sim reset", "pico sim"),
     alone=True,
 )

@@ -182,8 +182,8 @@ def test_accidents_are_listed_and_taken_back(setup: Setup, lit: World, tmp_path:
         "ly_200": {"optic": "plano_convex_150_stage"}, "lx_100": {"up": 0.1, "focal_length": pytest.approx(150.0)},
         "p1": {"angle": 2.0},
     }  # fmt: skip
-    save_world(tmp_path, both)
-    assert load_world(setup, tmp_path)[0] == both
+    save_world(bench_at(tmp_path), both)
+    assert load_world(setup, bench_at(tmp_path))[0] == both
     assert hidden(setup, clear(both, "lx_100")).keys() == {"ly_200", "p1"}
     assert clear(both) == lit
 

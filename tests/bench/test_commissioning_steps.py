@@ -77,11 +77,11 @@ def test_what_was_made_shorter_says_so() -> None:
 
 
 def test_yes_says_of_no_real_bench_that_a_hand_is_on_its_stop() -> None:
-    real = Person(Session(backend="hardware"), auto_approve=True)
+    real = Person(Session(), auto_approve=True, name="hardware")
     assert real.confirm("Take p1?")
     with pytest.raises(PicoError, match="nobody can be asked here"):
         real.confirm("Is a hand on the stop?", by_person=True)
-    assert Person(Session(backend="emulated"), auto_approve=True).confirm("Is a hand on the stop?", by_person=True)
+    assert Person(Session(), auto_approve=True, name="emulated").confirm("Is a hand on the stop?", by_person=True)
 
 
 def test_a_bench_without_arms_has_nothing_to_be_tried_of_them(setup: Setup) -> None:

@@ -134,7 +134,7 @@ def test_what_a_commit_recorded_of_its_light_is_measured_again_and_compared(benc
     pico("sim", "nudge", "lx_100", "--dy", "0.4")
     again = pico("apply", "one", "--align", "--yes")
     assert "✗  cam.centroid.x" not in again.out, "the goal was sought again"
-    pico("sim", "upset", "laser", "loss=0.3")
+    pico("sim", "upset", "laser", "power=-30%")
     assert pico("apply", "E3-2", "--align", "--yes").code == 0
     answer = pico("apply", "one", "--align", "--yes", "--json")
     found = json.loads(answer.out.splitlines()[-1])

@@ -155,7 +155,6 @@ def test_the_catalog_is_there_without_a_lab(tmp_path: Path, pico: Pico, monkeypa
         (["note", "p9", "x"], "no part `p9`"),
         (["sim", "kick"], "kick"),
         (["sim", "nudge", "p2", "--dx", "nan"], "--dx"),
-        (["sim"], "reset, nudge, bump, remove"),
         (["plan", "e1", "e2"], "extra argument"),
         (["plan", "e9"], "there is no revision `e9`"),
         (["plan", "--backend", "hardware"], "no driver for the arm arm1 (xarm7)"),

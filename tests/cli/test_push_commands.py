@@ -50,7 +50,7 @@ def test_push_sends_data_and_commits_and_pull_brings_both(
     assert tip(origin) == tip(shel)
     answer = pico("-C", str(clone), "pull")
     assert answer.code == 0, answer
-    assert "nothing moved: `pico plan` shows what would" in answer.out
+    assert f"nothing moved: `pico -C {clone} plan` shows what would" in answer.out
     assert LabData.discover(clone).store.get(name) == b"frame a"
     assert (clone / "runs" / "2026" / "11" / "run-a" / "run.json").is_file()
     assert pico("-C", str(clone), "pull").out == "Nothing new.\n"

@@ -225,7 +225,7 @@ def test_dropped_edits_can_be_had_again(shel: Path, pico: Pico) -> None:
         (["checkout", "e1", "--", "p3"], "no component `p3`"),
         (["checkout", "e9", "--", "p2"], "no revision `e9`"),
         (["revert", "e9"], "no revision `e9`"),
-        (["cherry-pick", "main..e9"], "main..e9"),
+        (["cherry-pick", "main..e9"], "no revision `e9`"),
         (["revert", "C1"], "C1 is the first commit"),
         (["revert", "HEAD", "--mainline", "2"], "is no merge"),
     ],

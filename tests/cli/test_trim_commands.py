@@ -137,7 +137,7 @@ def test_of_a_set_point_the_value_counts(aligned: Path, pico: Pico) -> None:
 @pytest.mark.parametrize(
     ("own", "said"),
     [
-        ("{stage_q: {kind: align}}", "`stage_z` or `stage_y`"),
+        ("{stage_q: {kind: align}}", "`stage_y` or `stage_z`"),
         ("{stage_y: {kind: align, trim: 1, goal: centered}}", "did you mean `centred`"),
         ("{stage_y: {kind: alighn}}", "kind"),
         ("{shutter: {kind: setpoint}}", "it stays a request"),

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.edge.lease import user
-from pico.history.runs.benches import fits
 from pico.model.address import renaming_of
 from pico.model.diff import deviation, show_value, value_deviation
 from pico.model.observation import Observation
@@ -22,6 +21,9 @@ from pico.model.setup import Setup
 if TYPE_CHECKING:
     from pico.runs.journal import RunRecord
     from pico.runs.memory import Memory
+
+
+_WITHIN = ("none", "tolerated")
 
 
 @dataclass(frozen=True)
@@ -82,7 +84,7 @@ def changed(setup: Setup, memory: Memory, run: RunRecord) -> bool:
         return bool(touched)
     before = document_of(memory, run).base.state
     return any(
-        not _same(setup, one, _in_state(before, one), _in_seen(after["components"], one), fine=_by_light(setup, one))
+        not _same(setup, one, _in_state(before, one), _in_seen(after["components"], one), closely=True)
         for one in touched
     )
 
@@ -97,10 +99,10 @@ def not_in_place(setup: Setup, memory: Memory, seen: Observation, found: Chosen)
             return None
         text = f"nobody looked at the bench after run {run.run}, which was killed, and others have run since"
         return error("not-in-place", text, hint=f"`pico undo {later[0].run}` first, or `pico apply`")
-    names = renaming_of(setup.lab)
     for component, tunable in sorted(set(begun_by(memory, run))):
-        component, left = names.get(component, component), _in_seen(after["components"], (component, tunable))
-        one, part = (component, tunable), seen.components.get(component)
+        name = renaming_of(setup.lab).get(component, component)
+        one, part = (component, tunable), seen.components.get(name)
+        left = _in_seen(after["components"], one)
         live: Any = None
         if part is not None and tunable == "pose":
             live = part.pose if part.presence == "seen" else None
@@ -108,14 +110,20 @@ def not_in_place(setup: Setup, memory: Memory, seen: Observation, found: Chosen)
             live = part.values[tunable].value
         if _same(setup, one, left, live):
             continue
-        by = next((r for r in later if one in {(names.get(c, c), t) for c, t in begun_by(memory, r)}), None)
+        by = next((r for r in later if (name, tunable) in _present(setup, begun_by(memory, r))), None)
         now, was = (str(v) if isinstance(v, Pose) else show_value(v) for v in (live, left))
-        address = component if tunable == "pose" else f"{component}.{tunable}"
+        address = name if tunable == "pose" else f"{name}.{tunable}"
         who = f"by {called(memory, by)}" if by else "by no run"
         text = f"run {run.run} is not in place any more: it left {address} at {was}, and that is at {now} now, {who}"
         hint = f"`pico undo {by.run}` first, or `pico apply`" if by else "`pico apply` brings the bench to the manifest"
         return error("not-in-place", text, hint=hint, address=address)
     return None
+
+
+def _present(setup: Setup, touched: Iterable[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Return components with their tunables, each by the name that the component has now."""
+    names = renaming_of(setup.lab)
+    return {(names.get(component, component), tunable) for component, tunable in touched}
 
 
 def called(memory: Memory, run: RunRecord) -> str:
@@ -162,6 +170,8 @@ def _cause(memory: Memory, run: RunRecord) -> str | None:
 
 
 def _named(runs: Collection[RunRecord], all_runs: Collection[RunRecord], word: str) -> RunRecord:
+    from pico.history.runs.benches import fits  # what looks at journals is not needed to open a bench
+
     found = [run for run in runs if word and fits(word, run.run)]
     if len(found) == 1:
         return found[0]
@@ -200,14 +210,10 @@ def _in_seen(parts: Mapping[str, Any], one: tuple[str, str]) -> Any:
     return Pose(**part["pose"]) if part.get("pose") and part.get("presence", "seen") == "seen" else None
 
 
-def _by_light(setup: Setup, one: tuple[str, str]) -> bool:
-    """Return whether light has the last word on a tunable: to that it matters below its tolerance, too."""
-    kinds = setup.type_of(one[0]).tunables if one[0] in setup.lab.inventory else {}
-    return one[1] in kinds and kinds[one[1]].restore.kind == "align"
-
-
-def _same(setup: Setup, one: tuple[str, str], a: Any, b: Any, *, fine: bool = False) -> bool:
-    component, tunable = one
+def _same(setup: Setup, one: tuple[str, str], a: Any, b: Any, *, closely: bool = False) -> bool:
+    """Return whether two values of a tunable are the same within its tolerance. `closely`: of one on which light has
+    the last word within its resolution, for to light it matters below the tolerance, too."""
+    component, tunable = renaming_of(setup.lab).get(one[0], one[0]), one[1]
     if component not in setup.lab.inventory or a is None or b is None:
         return a is None and b is None
     if tunable == "pose":
@@ -215,4 +221,4 @@ def _same(setup: Setup, one: tuple[str, str], a: Any, b: Any, *, fine: bool = Fa
     kind = setup.type_of(component).tunables.get(tunable)
     if kind is None:
         return bool(a == b)
-    return value_deviation(kind, a, b) in (("none",) if fine else ("none", "tolerated"))
+    return value_deviation(kind, a, b) in (("none",) if closely and kind.restore.kind == "align" else _WITHIN)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from laser_lab import bench, carry, observed, search, set_to, with_type
 
 from pico.backends.attempt import Failed
@@ -205,12 +206,12 @@ def test_a_laser_emits_only_where_that_is_true(wanted: Any, told: bool, answers:
 @pytest.mark.parametrize(("wanted", "told"), [(True, True), (False, False), (1, False), ("on", False)])
 def test_a_lamp_is_as_it_was_told_last_and_unknown_at_first(tmp_path: Path, wanted: Any, told: bool) -> None:
     device = Device()
-    lamp = Lit(device, Settings(tmp_path, "hardware"), "room.illumination")  # type: ignore[arg-type]
+    lamp = Lit(device, Settings(bench_at(tmp_path, "hardware")), "room.illumination")  # type: ignore[arg-type]
     assert asyncio.run(lamp.read()).status == "unknown"
     assert asyncio.run(lamp.set(wanted)) is told and device.told == [told]
-    again = Lit(device, Settings(tmp_path, "hardware"), "room.illumination")  # type: ignore[arg-type]
+    again = Lit(device, Settings(bench_at(tmp_path, "hardware")), "room.illumination")  # type: ignore[arg-type]
     assert asyncio.run(again.read()).value is told
-    Settings(tmp_path, "hardware").put("room.illumination", "dim")
+    Settings(bench_at(tmp_path, "hardware")).put("room.illumination", "dim")
     assert asyncio.run(again.read()).status == "unknown"
 
 
@@ -227,14 +228,14 @@ def test_an_axis_is_read_and_set_in_the_units_of_the_lab() -> None:
     (Tunable(initial=0.0, range=(0.1, 9.0)), 0.0),
 ])  # fmt: skip
 def test_a_setting_of_a_camera_is_what_it_was_set_to_last(tmp_path: Path, kind: Tunable, first: float) -> None:
-    one = Exposed(Device(), Settings(tmp_path, "hardware"), "cam.exposure", kind)  # type: ignore[arg-type]
+    one = Exposed(Device(), Settings(bench_at(tmp_path, "hardware")), "cam.exposure", kind)  # type: ignore[arg-type]
     assert asyncio.run(one.read()).value == first
     assert asyncio.run(one.set(5.0)) == 5.0 and asyncio.run(one.read()).value == 5.0
 
 
 @pytest.mark.parametrize("one", [Shut, Emitting])
 def test_only_axes_have_a_home_and_move(one: Any, tmp_path: Path) -> None:
-    settings = Settings(tmp_path, "hardware")
+    settings = Settings(bench_at(tmp_path, "hardware"))
     others = (one(Device()), Lit(Device(), settings, "a"), Exposed(Device(), settings, "b", Tunable()))  # type: ignore[arg-type]
     for other in others:
         with pytest.raises(PicoError, match="no axis"):

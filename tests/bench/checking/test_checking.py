@@ -252,6 +252,7 @@ def test_a_recipe_that_can_not_run_is_refused_with_file_and_line(lab: Lab) -> No
     (folder / "one.yaml").write_text(f"{head}- apply: e1\n- call: two\n")
     (folder / "two.yaml").write_text(f"{head}- set: {{p1.angle: 3}}\n")
     lab.git("checkout", "-q", "--detach")
+    lab.git("remote", "add", "origin", "elsewhere")
     lab.git("update-ref", "refs/remotes/origin/e1", "e1")
     lab.git("branch", "-q", "-D", "e1")
     fine = checked(lab, recipes=check_recipes)
