@@ -238,9 +238,11 @@ def export(
         raise PicoError(error("usage", "a crate is not written to the terminal", hint="name a folder or a file.zip"))
     from pico.bench.publishing import publish
     from pico.history.lab.folder import LabFolder
+    from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    folder = LabFolder(session.folder)
+    root = find_lab(session.folder)
+    folder = LabFolder(root, place=session.place(root))
     with waiting("Publishing"):
         path = session.folder / out if out else None
         made = publish(folder, revision, path, runs=run or (), pictures=pictures == "all", beside=session.folder)

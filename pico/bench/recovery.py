@@ -57,7 +57,7 @@ class Recovery:
             return
         if command == "resume":
             intention.require_named(self.opened.place, command, called(memory, _last(self.opened.place, memory)))
-        found = chosen(self.opened.setup, memory, None, of, undone=command == "redo")
+        found = chosen(self.opened.setup, memory, None, of, self._me(), undone=command == "redo")
         intention.require_named(self.opened.place, command, called(memory, found.run))
 
     def resume_plan(self, run: str | None = None) -> tuple[Plan, str]:
@@ -131,7 +131,7 @@ class Recovery:
         refuse_in_use(self.opened)
         if run is not None and not any(fits(run, one.run) for one in memory.runs()):
             refuse_of_another(self.opened.place, run, f"{cause} {run}")
-        found = chosen(setup, memory, run, of, undone=cause == "redo")
+        found = chosen(setup, memory, run, of, self._me(), undone=cause == "redo")
         if not self.opened.asked:
             self.opened.suit(found.plan)
         names = renaming_of(setup.lab)
@@ -216,6 +216,14 @@ class Recovery:
         if memory is None:
             raise PicoError(_no_run(self.opened.place))
         return memory
+
+    def _me(self) -> str:
+        """Return what the journal calls the person who asks; at a coordinator that is the owner of the token."""
+        from pico.edge.lease import user
+        from pico.edge.network.asking import ask
+
+        far = self.opened.far
+        return user() if far is None else str(ask(far.remote, "GET", "/whoami")["name"])
 
     def _elsewhere(self, command: str) -> tuple[Diagnostic, ...]:
         """Return that a later run of this lab was on another bench of this machine, if so: this one was perhaps meant

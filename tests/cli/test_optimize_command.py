@@ -237,7 +237,7 @@ def test_what_a_second_ctrl_c_leaves_set_is_told_with_what_sets_it_back(placed: 
     (told,) = [d for d in json.loads(out.splitlines()[-1])["diagnostics"] if d["code"] == "left-set"]
     assert process.returncode == 130 and _stands(pico)[1] == 80
     assert "cam.exposure at" in told["summary"] and "(was 10 ms), p2.angle at 80 deg (was 90 deg)" in told["summary"]
-    assert "`pico undo`" in told["hint"]
+    assert f"`pico -C {placed} undo`" in told["hint"]
     assert pico("undo", "--yes").code == 0 and before == _stands(pico)
 
 

@@ -81,7 +81,7 @@ def test_a_goal_that_is_lost_is_told_with_what_it_was_and_counts_as_lost_from_th
 
 
 def test_a_laser_that_lost_power_is_suspected_first(built: Path, pico: Pico) -> None:
-    pico("sim", "upset", "laser", "loss=0.3")
+    pico("sim", "upset", "laser", "power=-30%")
     code, found = verified(pico)
     assert code == 6 and found["goals"][0]["met"] is True
     first = found["suspects"][0]

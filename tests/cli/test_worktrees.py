@@ -78,7 +78,7 @@ def test_what_would_move_the_bench_is_refused_in_another_worktree_which_stays_as
     at(pico, shel, "apply", "e1", "--auto-approve")
     before = (shel / ".pico/benches/sim/world.json").read_text()
     said = " ".join(at(pico, other, *words, code=5).split())  # however wide the terminal is
-    assert f"only plans on `sim`: that bench is attached to {shel}" in said and "`pico git attach`" in said
+    assert f"only plans on `sim`: that bench is attached to {shel}" in said and f"`pico -C {other} git attach`" in said
     assert (shel / ".pico/benches/sim/world.json").read_text() == before
     assert not (shel / ".pico/benches/sim/faults.json").exists()
     assert git(other, "rev-parse", "HEAD") == git(shel, "rev-parse", "e1^0")

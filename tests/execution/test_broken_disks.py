@@ -49,7 +49,7 @@ def test_a_full_disk_ends_the_run_with_a_true_report_and_nothing_moves_unrecorde
 
 def test_with_a_damaged_journal_looking_and_planning_go_on_and_nothing_moves(tmp_path: Path) -> None:
     path = tmp_path / ".pico/benches/sim" / "journal.sqlite"
-    path.parent.mkdir()
+    path.parent.mkdir(parents=True)
     path.write_bytes(b"this is no database " * 300)
     bench = sim(SETUP, tmp_path)
     planned = asyncio.run(plan_to(bench, C3))

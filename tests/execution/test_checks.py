@@ -106,7 +106,7 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
     made = plan(move(HOME["p2"], AWAY))
     require_applicable(made, able)
     for change, said in (
-        ({"name": "hardware"}, "the plan was made for sim, not for hardware"),
+        ({"name": "hardware"}, "this plan was made for the bench `sim`, and this is `hardware`"),
         ({"fidelity": "physics"}, "the plan was made for kinematic, and this bench is served in physics"),
         ({"primitives": frozenset({"set"})}, "sim (kinematic) cannot move p2"),
         ({"robots": ()}, "the plan needs the robot arm1; sim has: none"),

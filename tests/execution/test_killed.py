@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import os
 import signal
 import subprocess
 import sys
@@ -33,8 +34,9 @@ asyncio.run(go())
 
 
 def test_what_was_under_way_is_known_what_was_done_is_not_repeated_and_the_next_apply_goes_on(tmp_path: Path) -> None:
-    beside = str(Path(__file__).resolve().parent)
-    killed = subprocess.run([sys.executable, "-c", KILLED, str(tmp_path)], cwd=beside, check=False)
+    beside = Path(__file__).resolve().parent
+    environment = {**os.environ, "PYTHONPATH": str(beside.parent)}
+    killed = subprocess.run([sys.executable, "-c", KILLED, str(tmp_path)], cwd=beside, env=environment, check=False)
     assert killed.returncode == -signal.SIGKILL
     setup, state = shel("gantry")
     bench = sim(setup, tmp_path)

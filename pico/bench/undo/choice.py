@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.edge.lease import user
 from pico.model.address import renaming_of
 from pico.model.diff import deviation, show_value, value_deviation
 from pico.model.observation import Observation
@@ -42,9 +41,12 @@ class Chosen:
         return self.runs[self.at]
 
 
-def chosen(setup: Setup, memory: Memory, word: str | None, of: str | None, *, undone: bool = False) -> Chosen:
+def chosen(
+    setup: Setup, memory: Memory, word: str | None, of: str | None, me: str, *, undone: bool = False
+) -> Chosen:  # fmt: skip
     """Return the run to be taken back: the one whose id begins or ends with `word`, else the last one that left the
-    bench otherwise than it found it, beyond tolerance, or was cut short. `of`: of this person. `undone`: a run that is
+    bench otherwise than it found it, beyond tolerance, or was cut short. `of`: of this person. `me`:
+    what the journal calls the person who asks. `undone`: a run that is
     an undo, or the undo of the run that is named.
 
     Raises PicoError if there is none, for a word that fits several, and for a run of somebody else unless `of` names
@@ -68,7 +70,7 @@ def chosen(setup: Setup, memory: Memory, word: str | None, of: str | None, *, un
         if undone and _cause(memory, found) != "undo":
             text = f"nothing to redo: the last run that changed the bench is no undo, but {called(memory, found)}"
             raise PicoError(error("nothing-to-redo", text, hint="`pico runs` lists them; `pico redo RUN` names one"))
-    _require_own(memory, found, of, "redo" if undone else "undo")
+    _require_own(memory, found, (me, of), "redo" if undone else "undo")
     first = at = runs.index(found)
     while first and _cause(memory, runs[first - 1]) == "recover":
         first -= 1
@@ -191,9 +193,9 @@ def _undo_of(memory: Memory, runs: Collection[RunRecord], run: RunRecord) -> Run
     raise PicoError(error("nothing-to-redo", f"{called(memory, run)} was not undone", hint="`pico runs` lists them"))
 
 
-def _require_own(memory: Memory, run: RunRecord, of: str | None, verb: str) -> None:
+def _require_own(memory: Memory, run: RunRecord, whose: Collection[str | None], verb: str) -> None:
     who = operator(memory, run)
-    if who and who not in (user(), of):
+    if who and who not in whose:
         text = f"{called(memory, run)} is another person's"
         raise PicoError(error("of-another", text, hint=f"`pico {verb} {run.run} --of {who}` takes it back anyway"))
 
