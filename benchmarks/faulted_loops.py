@@ -59,7 +59,7 @@ NAMED = re.compile(r"(\w+\.\w+) does not go where it is sent; it last stood at (
 
 def truth(setup: Setup, root: Path, world: World, sought: Sought) -> float:
     """Return how far the light of a world is from a goal, with nothing in the way, at one moment."""
-    return sought.true(Table(setup, root, replace(world, clock=0.0)))
+    return sought.true(Table(setup, BenchPlace(root, "sim"), replace(world, clock=0.0)))
 
 
 def stands(world: World, sought: Sought) -> dict[str, float]:

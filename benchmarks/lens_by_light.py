@@ -80,7 +80,7 @@ def true_off(bench: Bench) -> float:
 
     root = bench.folder.root
     world, _ = load_world(bench.setup, BenchPlace(root, "sim"))
-    found = light_on(Table(bench.setup, root, world)).at("camera")
+    found = light_on(Table(bench.setup, BenchPlace(root, "sim"), world)).at("camera")
     return 1e3 * abs(sum(a.power * a.center[0] for a in found) / sum(a.power for a in found))
 
 

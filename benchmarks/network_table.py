@@ -83,13 +83,14 @@ def table(root: Path, note: Path, log: Path) -> None:
     from pico.backends.emulated import bench
     from pico.backends.instruments import emulated
     from pico.edge import own_lab
+    from pico.places.bench import BenchPlace
 
     lab = own_lab.proposed(root)
     assert lab is not None
     setup, kept = own_lab.setup_of(lab), Log(log)
     devices = dict(setup.wiring.devices) if setup.wiring else {}
     bench.EmulatedWorld = _logged(kept)  # type: ignore[misc]
-    world, running = bench.brought_up(setup, root, emulated(devices))
+    world, running = bench.brought_up(setup, BenchPlace(root, "emulated"), emulated(devices))
     clock = Clock(time.monotonic(), world.now(), world.pace)
     partial = note.with_suffix(".part")
     partial.write_bytes(pickle.dumps((clock, running.entries)))

@@ -47,7 +47,9 @@ def true_error(bench: Bench, folder: Path) -> float:
 
     def power(at: float) -> float:
         turned = world.with_body("p2", offsets={**body.offsets, "angle": at - float(body.values["angle"].value or 0.0)})
-        return sum(arrival.power for arrival in light_on(Table(bench.setup, folder, turned)).at("cam"))
+        return sum(
+            arrival.power for arrival in light_on(Table(bench.setup, BenchPlace(folder, "sim"), turned)).at("cam")
+        )
 
     guess = float(world.components["p1"].true_values["angle"]) + 90
     null = least(power, guess - 5, guess + 5)

@@ -59,6 +59,7 @@ class Ended:
 def ended(folder: Path) -> Ended:
     """Read what the last run of a recipe left in a lab."""
     from pico.bench.bench import Bench
+    from pico.places.bench import BenchPlace
     from pico.recipes.log import Log, logs
 
     with Bench.open(folder) as bench:
@@ -69,7 +70,7 @@ def ended(folder: Path) -> Ended:
                 numbers |= {f"{name}.pose.{axis}": getattr(part.pose, axis) for axis in ("x", "y", "yaw")}
         names = [n for n in history.handle.references if n.startswith(("refs/heads/", "refs/tags/"))]
         revisions = {n: tuple(c.summary for c in history.log([n])) for n in names}
-        steps = Log.read(logs(folder)[0]).steps
+        steps = Log.read(logs(BenchPlace(folder, "sim"))[0]).steps
         told = {path: step.told["measured"] for path, step in steps.items() if step.told and "measured" in step.told}
         taken: dict[tuple[str, str], list[Any]] = {}
         for record in memory.records() if memory else ():

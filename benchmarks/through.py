@@ -104,7 +104,7 @@ def mounted_anew(folder: Path, seed: int, slip: float) -> None:
             bench.sim.power_cycle()
     if seed % 3 == 0:
         spare = MIRRORS[seed % 2]
-        updating.swap(folder, "sim", updating.swapped(folder, spare, "B1", None, {}))
+        updating.swap(BenchPlace(folder, "sim"), updating.swapped(BenchPlace(folder, "sim"), spare, "B1", None, {}))
 
 
 def run(folder: Path, seed: int, slip: float) -> Found:

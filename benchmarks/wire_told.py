@@ -8,7 +8,6 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from proxy import Faults, Proxy
@@ -20,6 +19,7 @@ from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
+from pico.places.bench import BenchPlace
 
 MOVES = {
     "elliptec.rotator": re.compile(rb"(?P<at>[0-9A-F])(?:ho|m[ar])"),
@@ -101,8 +101,8 @@ class Wires:
         brought_up = emulated.brought_up
         Watched.log = self.log
 
-        def tapped(setup: Setup, root: Path, entries: dict[str, DeviceEntry]) -> tuple[Any, EmulatedBench]:
-            world, bench = brought_up(setup, root, entries)
+        def tapped(setup: Setup, place: BenchPlace, entries: dict[str, DeviceEntry]) -> tuple[Any, EmulatedBench]:
+            world, bench = brought_up(setup, place, entries)
             self.world, self.arms = world, [one for one in bench._running if hasattr(one, "joints")]
             self.proxies = {}
             links: dict[str, list[str]] = {}

@@ -117,6 +117,8 @@ def clone(root: Path, to: Path) -> Path:
         git(to, ["config", key, value], doing=doing, extra=_OWN)
     refs = [f"+refs/{kind}/*:refs/{kind}/*" for kind in ("heads", "tags", "remotes")]
     git(to, ["fetch", "-q", "--no-auto-gc", "--update-head-ok", source, *refs], doing=doing, extra=_OWN)
+    for name in git(repository.root, ["remote"], doing=doing).split():  # by them git knows whose branches those are
+        git(to, ["remote", "add", name, source], doing=doing, extra=_OWN)
     head = repository.head()
     if head.commit:
         git(to, ["fetch", "-q", "--no-auto-gc", source, head.commit], doing=doing, extra=_OWN)

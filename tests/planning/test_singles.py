@@ -50,10 +50,10 @@ def test_what_makes_no_sense_is_an_error(where: str | Pose) -> None:
 def test_one_value_is_set() -> None:
     setup = bench({"a": "block", "b": "block"})
     seen = see(setup, {"a": (300, 300), "b": (500, 300)}, {"a": {"angle": 0.0}, "b": {"angle": None}})
-    (turn,) = one(set_values, setup, seen, "a", "angle", 90.0).operations
+    (turn,) = one(set_values, setup, seen, "a", {"angle": 90.0}).operations
     assert (turn.arguments["from"], turn.arguments["to"], turn.reason.kind) == (0.0, 90.0, "asked")
-    assert one(set_values, setup, seen, "a", "angle", 0.0).operations == ()
-    assert [o.primitive for o in one(set_values, setup, seen, "b", "angle", 0.0).operations] == ["home", "set"]
+    assert one(set_values, setup, seen, "a", {"angle": 0.0}).operations == ()
+    assert [o.primitive for o in one(set_values, setup, seen, "b", {"angle": 0.0}).operations] == ["home", "set"]
 
 
 def test_one_axis_is_homed() -> None:

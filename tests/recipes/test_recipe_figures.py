@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from asking import read
+from bench_at import bench_at
 from commanding import Pico
 
 from pico.bench.bench import Bench, new_lab
@@ -122,7 +123,7 @@ def test_what_was_cut_short_returned_nothing(shel: Path) -> None:
         recipes = Recipes(bench)
         recipe = recipes.read(str(shel.parent / "turned.yaml"))
         recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
-        path = logs(shel)[0]
+        path = logs(bench_at(shel))[0]
         lines = path.read_text().splitlines(keepends=True)
         for cut in (1, len(lines) // 2, len(lines) - 3):
             path.write_text("".join(lines[:cut]))

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
@@ -133,7 +134,7 @@ def test_a_log_that_was_cut_in_a_line_is_read_up_to_it(lab: Path) -> None:
         recipe = recipes.read(str(lab.parent / "scan.yaml"))
         with pytest.raises(Killed):
             recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})), Watching(ended=stop))
-    path = logs(lab)[0]
+    path = logs(bench_at(lab))[0]
     path.write_bytes(path.read_bytes()[:-9])
     assert resume(lab).outcome == "done"
 
@@ -295,7 +296,7 @@ def test_what_others_did_since_it_was_cut_short_is_told_and_no_more_once_it_is_u
 
 def test_a_log_that_was_cut_in_its_first_line_is_of_a_run_that_did_nothing(lab: Path) -> None:
     stopped_before(lab, "2[2].1")
-    whole = logs(lab)[0]
+    whole = logs(bench_at(lab))[0]
     whole.with_name("99990101T000000Z-aaaaaa.jsonl").write_bytes(b"")
     whole.with_name("99990101T000000Z-bbbbbb.jsonl").write_bytes(whole.read_bytes()[:40])
     assert resume(lab).outcome == "done"
@@ -303,8 +304,8 @@ def test_a_log_that_was_cut_in_its_first_line_is_of_a_run_that_did_nothing(lab: 
 
 def test_a_log_of_another_version_is_told_and_keeps_no_other_from_going_on(lab: Path) -> None:
     stopped_before(lab, "2[2].1")
-    text = logs(lab)[0].read_text(encoding="utf-8")
-    logs(lab)[0].with_name("99990101T000000Z-aaaaaa.jsonl").write_text(text.replace("_run/v1", "_run/v9"))
+    text = logs(bench_at(lab))[0].read_text(encoding="utf-8")
+    logs(bench_at(lab))[0].with_name("99990101T000000Z-aaaaaa.jsonl").write_text(text.replace("_run/v1", "_run/v9"))
     with Bench.open(lab) as bench:
         recipes = Recipes(bench)
         assert [about.name for about in recipes.cut_short()] == ["scan"]

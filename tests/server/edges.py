@@ -46,7 +46,7 @@ def connected(served: Served, root: Path, bench: str = BENCH) -> Iterator[Connec
     """Enrol the bench of the lab in `root`, unless it is, and connect its edge meanwhile."""
     if read_enrolment(bench_at(root)) is None:
         code, _ = Edges(served.books.database).invited(bench, "test")
-        enrol(root, f"http://127.0.0.1:{served.port}", code)
+        enrol(bench_at(root), f"http://127.0.0.1:{served.port}", code)
     ready, made = threading.Event(), list[Connected]()
 
     async def live() -> None:

@@ -19,7 +19,8 @@ from coordinators import BENCH, Served
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.network import holding as holding_
 from pico.edge.network.holding import Holding
-from pico.edge.network.remotes import chosen
+from pico.edge.network.meant import named_bench
+from pico.edge.network.remotes import known
 from pico.edge.network.tokens import token_of
 from pico.history.examples.example import init_empty
 
@@ -74,21 +75,21 @@ def asked_often(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def holding(lab: Path) -> Holding:
-    far = chosen(lab, BENCH)
+    far = named_bench(lab, known(lab), BENCH)
     assert far is not None
     return Holding(far)
 
 
 def test_from_a_code_to_the_bench_that_commands_mean(coordinator: Served, lab: Path, pico: Pico) -> None:
     asked = pico("bench", "list")
-    assert asked.code == ExitCode.DENIED and "`pico login" in asked.err
+    assert asked.code == ExitCode.DONE and "Benches of this machine" in asked.out and "`pico login" in asked.err
     coordinator.books.people.settled("ann", [], by="test")
     code = coordinator.books.people.issued("ann", 60.0, by="test", kind="code").secret
     assert "You are ann" in pico("login", "lab", "--code", code).out
     assert token_of(f"http://127.0.0.1:{coordinator.port}")
     again = pico("login", "lab", "--code", code)
     assert again.code == ExitCode.DENIED and "does not take this code" in again.err
-    assert "No benches that you may see" in pico("bench", "list").out
+    assert "No benches of coordinators" in pico("bench", "list").out
     assert pico("remote", "add", "gone", "http://127.0.0.1:9").code == 0  # the others are listed all the same
     listed = pico("bench", "list")
     assert listed.code == 0 and "http://127.0.0.1:9 does not answer" in listed.err
@@ -96,9 +97,9 @@ def test_from_a_code_to_the_bench_that_commands_mean(coordinator: Served, lab: P
     coordinator.person("ann", "viewer@shel")
     listed = pico("--json", "bench", "list").data
     assert [(b["remote"], b["bench"], b["holder"]) for b in listed["benches"]] == [("lab", BENCH, None)]
-    assert "Commands mean shel/bench1" in pico("bench", "use", BENCH).out
-    assert "a token is kept" in pico("remote", "list").out and pico("--json", "bench", "list").data["meant"] == BENCH
-    assert pico("bench", "use", "local").out.strip() == "Commands mean the bench of this checkout."
+    assert "now mean shel/bench1" in pico("bench", "use", BENCH).out
+    assert "a token is kept" in pico("remote", "list").out and pico("--json", "bench", "list").data["meant"] == f"lab/{BENCH}"
+    assert "now mean sim" in pico("bench", "use", "local").out
     assert "no lease to ask for" in pico("lease", "show").err
 
 
