@@ -41,11 +41,15 @@ def lab_place(root: Path) -> LabPlace | None:
     for top in (root, *root.parents):
         mark = top / ".git"
         try:
-            own = mark if mark.is_dir() else (top / mark.read_text().removeprefix("gitdir:").strip())
+            own = (
+                mark
+                if mark.is_dir()
+                else (top / mark.read_text(encoding="utf-8", errors="surrogateescape").removeprefix("gitdir:").strip())
+            )
         except (OSError, ValueError):
             continue
         try:
-            shared = (own / "commondir").read_text().strip()
+            shared = (own / "commondir").read_text(encoding="utf-8", errors="surrogateescape").strip()
         except (OSError, ValueError):
             shared = "."
         common = Path(os.path.realpath(own / shared))
