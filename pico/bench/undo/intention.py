@@ -40,7 +40,7 @@ def keep(place: Place, command: str) -> Callable[[], None]:
     path = _path(place)
     found = Intention(command=command, at=utc_now(), operator=user(), last=_last(place))
     try:
-        file = path.open("a+")  # of a bench that has no folder yet there is nothing to undo
+        file = path.open("a+", encoding="utf-8")  # of a bench that has no folder yet there is nothing to undo
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         file.truncate(0)
         file.write(json.dumps(as_json(found)))
@@ -61,7 +61,7 @@ def killed(place: Place) -> Intention | None:
     """Return the command that was approved last, if it was killed before any run of it began to move something."""
     path = _path(place)
     try:
-        with path.open() as file:
+        with path.open(encoding="utf-8") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
             found = Intention(**json.loads(file.read()))
     except (OSError, ValueError, TypeError):
