@@ -219,7 +219,7 @@ def test_only_a_whole_answer_of_this_mount_to_this_question_is_its_angle(
     monkeypatch.setattr(Serial, "say", said)
 
     async def go(one: Any) -> Any:
-        line.waiting[:] = [b"2PO00002000\r\n"]  # what came before the question
+        line.waiting[:] = [b"2GJ00000000\r\n", b"2PO00002000\r\n"]  # what came before the question
         return await one.position()
 
     assert asked(go, axis, bus) == pytest.approx(12.0, abs=0.01)
@@ -368,6 +368,26 @@ def test_a_stage_is_asked_by_its_numbers_and_a_refused_command_is_an_error() -> 
     entry = DeviceEntry(driver="zaber.stage", address={"port": "x"}, settings={"counts_per_unit": 1.0})
     assert asked(lambda axis: axis.position(), zaber.Stage("it", entry, bus), bus) == 0.0
     assert "1 1 get pos" in alone.sent and "1 0 get deviceid" in alone.sent
+
+
+def test_a_stage_that_is_stopped_has_not_arrived_though_it_rests_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(zaber, "_POLL", 0.0)
+    chain = Chain(busy=10**9)
+    axis, bus = stage(chain)
+
+    async def go() -> str:
+        await axis.connect()
+        moving = asyncio.create_task(axis.move_to(4.0))
+        while not any("move abs" in c for c in chain.sent) and not moving.done():
+            await asyncio.sleep(0)
+        await axis.stop()
+        chain.busy = 0
+        with pytest.raises(PicoError) as caught:
+            await moving
+        await bus.close()
+        return caught.value.diagnostics[0].code
+
+    assert asyncio.run(go()) == "device-stopped" and "3 2 stop" in chain.sent
 
 
 @pytest.mark.parametrize("host", ["10.0.0.7", ""])
