@@ -219,7 +219,7 @@ def test_only_a_whole_answer_of_this_mount_to_this_question_is_its_angle(
     monkeypatch.setattr(Serial, "say", said)
 
     async def go(one: Any) -> Any:
-        line.waiting[:] = [b"2PO00002000\r\n"]  # what came before the question
+        line.waiting[:] = [b"2GJ00000000\r\n", b"2PO00002000\r\n"]  # what came before the question
         return await one.position()
 
     assert asked(go, axis, bus) == pytest.approx(12.0, abs=0.01)
@@ -370,6 +370,26 @@ def test_a_stage_is_asked_by_its_numbers_and_a_refused_command_is_an_error() -> 
     assert "1 1 get pos" in alone.sent and "1 0 get deviceid" in alone.sent
 
 
+def test_a_stage_that_is_stopped_has_not_arrived_though_it_rests_there(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(zaber, "_POLL", 0.0)
+    chain = Chain(busy=10**9)
+    axis, bus = stage(chain)
+
+    async def go() -> str:
+        await axis.connect()
+        moving = asyncio.create_task(axis.move_to(4.0))
+        while not any("move abs" in c for c in chain.sent) and not moving.done():
+            await asyncio.sleep(0)
+        await axis.stop()
+        chain.busy = 0
+        with pytest.raises(PicoError) as caught:
+            await moving
+        await bus.close()
+        return caught.value.diagnostics[0].code
+
+    assert asyncio.run(go()) == "device-stopped" and "3 2 stop" in chain.sent
+
+
 @pytest.mark.parametrize("host", ["10.0.0.7", ""])
 def test_a_link_to_stages_checks_what_is_said_over_it(host: str, monkeypatch: pytest.MonkeyPatch) -> None:
     from zaber_motion.ascii import Connection
@@ -439,7 +459,7 @@ class Spoken:
     counts: bool = True
     sent: list[str] = field(default_factory=list)
     count: int = 0
-    late: float = 0.0
+    asked: list[str] = field(default_factory=list)
 
     def tell(self, command: str) -> None:
         self.sent.append(command)
@@ -450,6 +470,7 @@ class Spoken:
     def ask(self, question: str) -> str:
         if question == "*IDN?":
             return "Acme,M1,S42,1.2"
+        self.asked.append(f"{question} after {len(self.sent)}")
         said = self.emits if question == "OUTP?" else self.closed
         found = said.pop(0) if len(said) > 1 else said[0]
         if question == "OUTP?":
@@ -495,6 +516,47 @@ def test_a_shutter_is_as_it_was_told_by_its_own_contact_which_is_closed_while_it
 @pytest.mark.parametrize(("contact", "open_"), [("1", False), ("0", True), ("", "device-lost")])
 def test_a_shutter_reads_open_while_its_contact_is(contact: str, open_: Any) -> None:
     assert asked(lambda one: one.is_open(), *spoken(scpi.Shutter, Spoken(closed=[contact]))) == open_
+
+
+def test_a_stop_comes_before_all_that_waits() -> None:
+    link, free = Spoken(), threading.Event()
+    one, bus = spoken(scpi.Laser, link)
+
+    async def go() -> None:
+        await one.connect()
+        waiting = [asyncio.create_task(bus.ask("it", "wait", lambda _: free.wait()))]
+        waiting += [asyncio.create_task(one.emitting()) for _ in range(3)]
+        for _ in range(3):
+            await asyncio.sleep(0)
+        waiting.append(asyncio.create_task(one.stop()))
+        await asyncio.sleep(0)
+        free.set()
+        await asyncio.gather(*waiting)
+        await bus.close()
+
+    asyncio.run(go())
+    assert link.sent == ["OUTP OFF"] and link.asked == ["OUTP? after 1"] * 3
+
+
+@pytest.mark.parametrize(
+    ("key", "value"), [("serial", "S43"), ("model", "M2"), ("vendor", "Bcme"), ("firmware", "1.3")]
+)
+def test_another_device_than_the_lab_names_is_told_nothing(key: Any, value: str) -> None:
+    link = Spoken()
+    bus: Bus[Any] = Bus(lambda: link, lambda one: None)
+    for identity, code in (({key: value}, "device-identity"), ({}, None)):
+        laser = scpi.Laser("it", DeviceEntry(driver="scpi", address={"visa": "x"}, identity=identity), bus)
+
+        async def go(laser: Any = laser) -> Any:
+            try:
+                return (await laser.connect()).serial, await laser.emit(False)
+            except PicoError as exc:
+                return exc.diagnostics[0].code
+            finally:
+                await bus.close()
+
+        assert asyncio.run(go()) == (code or ("S42", False))
+        assert link.sent == ([] if code else ["OUTP OFF"])
 
 
 @pytest.mark.parametrize("kind", [scpi.Laser, scpi.Shutter])
