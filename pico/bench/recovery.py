@@ -68,13 +68,12 @@ class Recovery:
         what brings about no state is left of it, such as a measurement.
         """
         from pico.execution.resume import renumbered
-        from pico.history.runs.benches import fits, refuse_of_another
+        from pico.history.runs.benches import fits
         from pico.planning import PlanGoal
 
+        self._require_here(run, f"resume {run}")
         memory = self._memory()
         refuse_in_use(self.opened)
-        if run is not None and not any(fits(run, one.run) for one in memory.runs()):
-            refuse_of_another(self.opened.place, run, f"resume {run}")
         last = _last(self.opened.place, memory)
         if run is not None and not (run and fits(run, last.run)):
             text = f"only the last run can be taken up again, and that is {called(memory, last)}"
@@ -124,13 +123,11 @@ class Recovery:
         return self._taken_back(run, of, "redo")
 
     def _taken_back(self, run: str | None, of: str | None, cause: str) -> Plan:
-        from pico.history.runs.benches import fits, refuse_of_another
         from pico.planning import PlanGoal
 
+        self._require_here(run, f"{cause} {run}")
         memory, setup = self._memory(), self.opened.setup
         refuse_in_use(self.opened)
-        if run is not None and not any(fits(run, one.run) for one in memory.runs()):
-            refuse_of_another(self.opened.place, run, f"{cause} {run}")
         found = chosen(setup, memory, run, of, self._me(), undone=cause == "redo")
         if not self.opened.asked:
             self.opened.suit(found.plan)
@@ -198,11 +195,8 @@ class Recovery:
     def answer(self, key: str, *, done: bool) -> None:
         """Record what a person says of an operation that only a person can tell the end of; see `Edge.resolve`."""
         from pico.edge.lease import user
-        from pico.history.runs.benches import refuse_of_another
 
-        memory, run = self.opened.edge.memory, key.partition("/")[0]
-        if memory is None or all(one.run != run for one in memory.runs()):
-            refuse_of_another(self.opened.place, run, f"recover --{'' if done else 'not-'}done {key}")
+        self._require_here(key.partition("/")[0], f"recover --{'' if done else 'not-'}done {key}")
         self.opened.wait(self.opened.edge.resolve(key, "done" if done else "failed", user()))
 
     def _emptied(self, seen: Observation) -> Observation:
@@ -216,6 +210,15 @@ class Recovery:
         if memory is None:
             raise PicoError(_no_run(self.opened.place))
         return memory
+
+    def _require_here(self, word: str | None, command: str) -> None:
+        """Raise PicoError if a word names no run of this bench, and one of another bench of this machine; `command`:
+        what to call there."""
+        from pico.history.runs.benches import fits, refuse_of_another
+
+        memory = self.opened.edge.memory
+        if word and (memory is None or not any(fits(word, one.run) for one in memory.runs())):
+            refuse_of_another(self.opened.place, word, command)
 
     def _me(self) -> str:
         """Return what the journal calls the person who asks; at a coordinator that is the owner of the token."""

@@ -61,11 +61,11 @@ def knob_of(pico: Pico, *how: str) -> Any:
     return pico(*how, "get", "m1.knob", "--json").data["values"]["knob"]
 
 
-def last(pico: Pico) -> Any:
-    run = pico("runs", "list", "--all", "--json").data["runs"][0]
+def last(pico: Pico, *how: str) -> Any:
+    run = pico(*how, "runs", "list", "--all", "--json").data["runs"][0]
     return [
         (o["primitive"], o["component"], o["outcome"])
-        for o in pico("runs", "show", run["document"]["id"], "--json").data["operations"]
+        for o in pico(*how, "runs", "show", run["document"]["id"], "--json").data["operations"]
     ]
 
 
@@ -94,5 +94,5 @@ def test_it_is_done_at_an_emulated_bench(knob: None, lab: Path, pico: Pico, monk
     for turned in (90, 60):
         answer = pico(*EMULATED, "do", "m1", "turn_knob", f"by={turned}", "-y")
         assert answer.code == 0, answer.out + answer.err
-    assert ("turn_knob", "m1", "done") in last(pico)
+    assert ("turn_knob", "m1", "done") in last(pico, *EMULATED)
     assert knob_of(pico, *EMULATED) == {**knob_of(pico, *EMULATED), "value": 150, "status": "commanded"}

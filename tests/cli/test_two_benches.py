@@ -109,6 +109,23 @@ def test_an_id_of_another_bench_is_refused_with_both_names_and_the_way_there(lab
     assert "there is no run `1999`" in pico("runs", "show", "1999").err
 
 
+@pytest.mark.parametrize("verb", ["undo", "redo", "resume"])
+@pytest.mark.parametrize("used", [False, True])
+def test_a_run_of_another_bench_is_refused_in_any_worktree(lab: Path, pico: Pico, verb: str, used: bool) -> None:
+    """Also if the bench that is meant has no run yet, and if another worktree has the one whose run it is."""
+    other = lab.parent / "other"
+    subprocess.run(["git", "worktree", "add", "-q", str(other), "-b", "second", "e1"], cwd=lab, check=True)
+    done(pico, *EMULATED, "set", "cam", "exposure=9", "-y")
+    (run,) = runs(pico, *EMULATED)
+    if used:
+        done(pico, "set", "cam", "exposure=8", "-y")
+    for at in (lab, other):
+        refused = pico("-C", str(at), verb, run, "-y")
+        said = " ".join(refused.err.split())
+        assert refused.code == 1 and f"run {run} was on the bench `emulated`, and this command means `sim`" in said
+        assert f"`pico -C {at} --bench emulated {verb} {run}`" in said
+
+
 def test_a_stop_names_the_bench_that_is_in_use(lab: Path, pico: Pico) -> None:
     done(pico, *EMULATED, "set", "cam", "exposure=9", "-y")
     with a_run_goes_on(lab, "pico apply e1", "emulated"):

@@ -68,8 +68,10 @@ def bench_state(place: BenchPlace) -> BenchState:
 
 def other_benches(place: Place | None, root: Path) -> tuple[BenchPlace, ...]:
     """Return the benches of this machine that the lab in `root` has, but for `place`."""
-    mine = place.title if place is not None else ""
-    return tuple(one for one in local_benches(root) if one.name != mine)
+    mine, lab = place.title if place is not None else "", lab_place(root)
+    here = [one.name for one in local_benches(root)]
+    recorded = read_record(lab).get(lab.inside, {}) if lab else {}  # also those that other worktrees have
+    return tuple(BenchPlace(root, name) for name in dict.fromkeys([*here, *sorted(recorded)]) if name and name != mine)
 
 
 def refuse_of_another(place: Place | None, word: str, command: str) -> None:
