@@ -48,7 +48,7 @@ def drift(
         return _watch(session, bench, interval, looks, heal, auto_approve)
     found = bench.drift.look()
     session.tell(found.cut_short)
-    session.show(view, found)
+    session.show(view, found, bench.place.title)
     return ExitCode.CHANGES if detailed_exitcode and found.beyond else ExitCode.DONE
 
 

@@ -14,8 +14,8 @@ from .diff import lines
 from .style import ago, count, listed, paint, wrap
 
 
-def text(found: Drifted) -> str:
-    """Return what drifted beyond tolerance, and how much within it."""
+def text(found: Drifted, bench: str) -> str:
+    """Return what drifted on a bench beyond tolerance, and how much within it."""
     beyond, head = found.beyond, found.head
     kept = [d.change for d in found.within if d.change.aligned]
     near = len(found.within) - len(kept)
@@ -26,10 +26,12 @@ def text(found: Drifted) -> str:
         title = (
             f"No part has left {head}, and light is lost:"
             if light
-            else f"No drift: the bench is as {head} says{excepted(kept)}."
+            else f"No drift: the bench `{bench}` is as {head} says{excepted(kept)}."
         )
         return "\n".join(x for x in (title, *light, within, ignored) if x)
-    title = f"{count(len(beyond), 'tunable')} of the bench {'has' if len(beyond) == 1 else 'have'} left {head}:"
+    title = (
+        f"{count(len(beyond), 'tunable')} of the bench `{bench}` {'has' if len(beyond) == 1 else 'have'} left {head}:"
+    )
     stays = excepted(kept).removeprefix(", except ")
     rest = [
         *([f"No drift: {stays}."] if kept else []),
@@ -106,12 +108,18 @@ def about(one: Drift) -> str:
     return "; ".join([*words, said[one.by] + (f": {one.how}" if one.how else "")])
 
 
-def data(found: Drifted) -> dict[str, Any]:
-    """Return schema `pico.drift/v1`: `head`, `changes` (from committed, `before`, to live, `after`; `tolerance`, `age`,
-    `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`, `light`: goals whose light is lost, or may be, with
-    what `moved`."""
+def data(found: Drifted, bench: str) -> dict[str, Any]:
+    """Return schema `pico.drift/v1`: `bench`, `head`, `changes` (from committed, `before`, to live, `after`;
+    `tolerance`, `age`, `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`, `light`: goals whose light is lost,
+    or may be, with what `moved`."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
-    own = {"head": found.head, "observed_at": found.observed_at, "ignored": list(found.ignored), "held": found.held}
+    own = {
+        "bench": bench,
+        "head": found.head,
+        "observed_at": found.observed_at,
+        "ignored": list(found.ignored),
+        "held": found.held,
+    }
     own |= {"cut_short": as_json(found.cut_short), "light": as_json(found.light or ())}
     return {"schema": "pico.drift/v1", **own, "changes": changes}
 
