@@ -82,7 +82,7 @@ class Recovery:
         if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             nothing = error("nothing-to-resume", text, hint=_goes_on(memory))
-            raise PicoError([nothing, *self._elsewhere("resume")])
+            raise PicoError([nothing, *self._elsewhere()])
         began = document_of(memory, last)
         if steered := next((op for op in began.operations if op.primitive == "teleoperate"), None):
             raise PicoError(_steered(steered.component, steered.robot))
@@ -103,7 +103,7 @@ class Recovery:
         left = tuple(_left_out(began, memory, last.run, sought))
         if left and not plan.operations:
             raise PicoError([replace(d, severity="error", code="nothing-to-resume") for d in left])
-        plan = replace(plan, diagnostics=(*self._elsewhere("resume"), *left, *plan.diagnostics))
+        plan = replace(plan, diagnostics=(*self._elsewhere(), *left, *plan.diagnostics))
         return renumbered(plan, last.resumed + 1), last.run
 
     def undo_plan(self, run: str | None = None, *, of: str | None = None) -> Plan:
@@ -150,7 +150,7 @@ class Recovery:
         targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
         goal = PlanGoal(wanted, target, exact=numbers, targets=targets)
         note = Diagnostic("note", cause, f"this takes back {called(memory, found.run)}")
-        return Plans(self.opened).to_state(looked, goal, told=(note, *self._elsewhere(cause)))
+        return Plans(self.opened).to_state(looked, goal, told=(note, *self._elsewhere()))
 
     def recover_plan(self) -> Plan:
         """Return the plan that sets down what hands still hold, sets back what the last run had set for a measurement
@@ -228,7 +228,7 @@ class Recovery:
         far = self.opened.far
         return user() if far is None else str(ask(far.remote, "GET", "/whoami")["name"])
 
-    def _elsewhere(self, command: str) -> tuple[Diagnostic, ...]:
+    def _elsewhere(self) -> tuple[Diagnostic, ...]:
         """Return that a later run of this lab was on another bench of this machine, if so: this one was perhaps meant
         by mistake."""
         from pico.history.runs.benches import later_elsewhere
@@ -239,7 +239,7 @@ class Recovery:
         text = (
             f"the last run of this lab was on the bench `{other}`, and this command means `{self.opened.place.title}`"
         )
-        return (warning("other-bench", text, hint=f"`pico --bench {other} {command}` goes on there"),)
+        return (warning("other-bench", text, hint=f"add `--bench {other}` if that one is meant"),)
 
 
 def _steered(component: str, robot: str | None) -> Diagnostic:

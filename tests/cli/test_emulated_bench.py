@@ -24,6 +24,7 @@ from pico.backends.hardware.links import _open
 from pico.bench.bench import Bench
 from pico.emulators.xarm.server import XArmEmulator
 from pico.model.pose import Pose
+from pico.places.bench import BenchPlace
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
 there = find_spec("xarm") and find_spec("ElliptecBus")
@@ -73,7 +74,7 @@ def test_what_was_applied_is_there_and_nothing_is_left_to_do(wired: Path, pico: 
     again = pico(*EMULATED, "plan", "C2", "--detailed-exitcode")
     assert again.code == 0, again.out
     assert not (wired / ".pico/benches/sim").exists(), "the simulator's table is another"
-    assert "  emulated  " in pico("runs").out
+    assert "  emulated  " in pico(*EMULATED, "runs").out and "No run here" in pico("runs").out
 
 
 def literally(pico: Pico, said: str, verb: str) -> None:
@@ -140,7 +141,7 @@ def test_what_a_kill_in_the_midst_of_a_move_left_is_found_and_finished(wired: Pa
 def test_a_control_box_that_was_away_while_nobody_asked_is_told_and_got_ready_again(wired: Path) -> None:
     with Bench.open(wired, backend="emulated") as bench:
         assert bench.apply("C1").outcome == "done"
-        links = _open[wired.resolve(), "emulated"]
+        links = _open[BenchPlace(wired.resolve(), "emulated")]
         assert links.emulators is not None
         (arm,) = (one for one in links.emulators._running if isinstance(one, XArmEmulator))
         (bus,) = (bus for key, bus in links._buses._buses.items() if key[0] == "xarm")
