@@ -11,8 +11,9 @@ import time
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
 from network_bench import dialled
+
+from pico.places.bench import BenchPlace
 
 HERTZ, MOVES = 30.0, 12
 """How often, and how many components move each time beside the arm."""
@@ -27,7 +28,7 @@ async def _telling(port: int, bench: str, key: str, root: Path) -> None:
     from pico.drawing.scene.scene import numbered, scene
     from pico.edge.link.server import edge_of
 
-    edge = edge_of(bench_at(root), "kinematic")
+    edge = edge_of(BenchPlace(root, "sim"), "kinematic")
     moment = await edge.moment()
     whole = scene(edge.setup, moment, numbered(edge.setup, moment)) | {"epoch": 1, "rev": 0}
     async with dialled(port, bench, key) as link:

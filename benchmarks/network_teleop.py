@@ -21,8 +21,6 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
-
 from pico.places.bench import BenchPlace
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -75,7 +73,7 @@ class Steered(Network):
             enrolment = read_enrolment(BenchPlace(self.beside, "sim"))
             assert enrolment is not None
             _noted(self.taken.path)
-            found = edge_of(bench_at(self.beside), "kinematic")
+            found = edge_of(BenchPlace(self.beside, "sim"), "kinematic")
             _watching(found, self.moved.path)
             asyncio.run(serve(found, beside=Uplink(found, enrolment).run))
 

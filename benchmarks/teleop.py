@@ -28,7 +28,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
+from pico.places.bench import BenchPlace
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
@@ -145,7 +145,7 @@ def recorded(folder: Path, record: Path) -> Iterator[None]:
     if child == 0:
         try:
             os.setsid()
-            edge = edge_of(bench_at(folder), "kinematic")
+            edge = edge_of(BenchPlace(folder, "sim"), "kinematic")
             _watching(edge, record)
             asyncio.run(serve(edge, lambda: os.write(writing, b"1") and None))
         finally:

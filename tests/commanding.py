@@ -11,9 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
-
 from pico.edge.lease import BenchLock
+from pico.places.bench import BenchPlace
 
 
 @dataclass(frozen=True)
@@ -55,8 +54,8 @@ def with_goals(lab: Path, goals: str) -> None:
 @contextmanager
 def a_run_goes_on(root: Path, what: str, bench: str = "sim") -> Iterator[None]:
     """Hold the bench, in the midst of a run."""
-    mark = bench_at(root, bench).folder / "run"
-    with BenchLock(bench_at(root, bench)).held(what):
+    mark = BenchPlace(root, bench).folder / "run"
+    with BenchLock(BenchPlace(root, bench)).held(what):
         mark.write_text("20261123T120000Z-aaaaaa")
         yield
         mark.unlink()

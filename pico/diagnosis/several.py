@@ -178,6 +178,8 @@ def _whole(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any],
 
 def _sizes(what: Changed, one: Explanation) -> list[Any]:
     """Return the sizes of the causes of an explanation that explain most together, by their slopes."""
+    if not one.found:
+        return []
     slope = np.concatenate([f.slope for f in one.found], axis=1)
     prior = np.diag(np.concatenate([f.prior for f in one.found]) ** 2)
     spread = what.noise(one.found)

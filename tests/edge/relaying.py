@@ -15,11 +15,10 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
-
 from pico.disk import write_whole
 from pico.edge.link.server import edge_of
 from pico.edge.network.remotes import Remote, Remotes, keep
+from pico.places.bench import BenchPlace
 from pico.places.choice import write_choice
 
 TOKEN = "of-a-test"
@@ -47,8 +46,8 @@ async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
     port, key = listener.getsockname()[1], secrets.token_hex(32)
     code, _ = Edges(books.database).invited(BENCH, "test")
     Edges(books.database).enrolled(code, key)
-    write_whole(bench_at(root).folder / "enrolment.json", b"{}", folders=True)
-    serving, edge = server(create_app(books)), edge_of(bench_at(root), fidelity)
+    write_whole(BenchPlace(root, "sim").folder / "enrolment.json", b"{}", folders=True)
+    serving, edge = server(create_app(books)), edge_of(BenchPlace(root, "sim"), fidelity)
     uplink = asyncio.create_task(Uplink(edge, Enrolment(f"http://127.0.0.1:{port}", BENCH, key)).run())
 
     async def told() -> None:
@@ -63,7 +62,7 @@ async def _serve(root: Path, fidelity: str, ready: int, folder: Path) -> None:
     with suppress(asyncio.CancelledError):
         await uplink
     await edge.close()
-    (bench_at(root).folder / "enrolment.json").unlink()
+    (BenchPlace(root, "sim").folder / "enrolment.json").unlink()
     books.close()
 
 

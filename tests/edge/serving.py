@@ -10,15 +10,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from bench_at import bench_at
-
 from pico.edge.link.server import edge_of, serve
+from pico.places.bench import BenchPlace
 
 
 def _serve(root: Path, fidelity: str, ready: int) -> None:
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_DFL)
-    asyncio.run(serve(edge_of(bench_at(root), fidelity), lambda: os.write(ready, b"1") and None))
+    asyncio.run(serve(edge_of(BenchPlace(root, "sim"), fidelity), lambda: os.write(ready, b"1") and None))
 
 
 @contextmanager

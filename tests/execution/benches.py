@@ -8,7 +8,6 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
 from results import RunResult
 
 from pico.backends.sim.device import SimDevice
@@ -20,6 +19,7 @@ from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 from pico.model.trace.event import Event
 from pico.motion.arms import ArmMotion
+from pico.places.bench import BenchPlace
 from pico.planning import PlanGoal, Planner
 
 SHEL = Path(__file__).resolve().parent.parent.parent / "labs" / "shel"
@@ -50,7 +50,9 @@ def sim(setup: Setup, root: Path, **options: Any) -> LocalEdge:
     """Return the simulated bench in folder `root`, at noon."""
     clock = options.pop("clock", lambda: NOON)
     given = {"fidelity": "kinematic", "clock": clock} | options
-    return LocalEdge(setup, bench_at(root), lambda setup: SimDevice(setup, bench_at(root), **given), clock=clock)
+    return LocalEdge(
+        setup, BenchPlace(root, "sim"), lambda setup: SimDevice(setup, BenchPlace(root, "sim"), **given), clock=clock
+    )
 
 
 async def plan_to(backend: LocalEdge, wanted: LabState) -> Plan:

@@ -18,7 +18,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
 from benches import run
 from crashing import PARTS, SETUP, SLOTS, TURNING, Chaos, CutJournal, Goal, Truth, Violation, _is_there, plan_for
 
@@ -32,6 +31,7 @@ from pico.model.plan import Base, LabRef, Plan
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.trace.event import Event
+from pico.places.bench import BenchPlace
 from pico.runs.journal import Journal
 
 DIGEST = SETUP.digest()
@@ -129,7 +129,7 @@ class InstantDevice:
 
 def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
     """Return the edge of an instant device, with the journal that kills."""
-    edge = LocalEdge(SETUP, bench_at(root), lambda _: InstantDevice(table))  # type: ignore[arg-type]
+    edge = LocalEdge(SETUP, BenchPlace(root, "sim"), lambda _: InstantDevice(table))  # type: ignore[arg-type]
     edge._remembers._journal = journal
     return edge
 

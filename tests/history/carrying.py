@@ -5,8 +5,6 @@ from __future__ import annotations
 import subprocess
 from pathlib import Path
 
-from bench_at import bench_at
-
 from pico.bench.bench import Bench
 from pico.history.lab.folder import LabFolder
 from pico.history.repository.repository import Repository
@@ -16,6 +14,7 @@ from pico.history.runs.proof import Standings
 from pico.model.trace.expectation import Standing
 from pico.model.trace.report import Committed
 from pico.model.trace.run import Run
+from pico.places.bench import BenchPlace
 
 
 def git(folder: Path, *arguments: str, code: int = 0) -> str:
@@ -61,13 +60,13 @@ def apply(folder: Path, goal: str | None = None) -> str:
 
 def standing(folder: Path, revision: str = "HEAD") -> Standing:
     """Return the standing of a revision by what commits hold, without what the bench alone knows."""
-    lab = LabFolder(folder, place=bench_at(folder))
+    lab = LabFolder(folder, place=BenchPlace(folder, "sim"))
     return Standings(lab).of(lab.history().resolve(revision))
 
 
 def standing_here(folder: Path, revision: str | None = None) -> Standing:
     """Return the standing as `pico verify` tells it, with what the bench alone knows."""
-    found = standing_of(LabFolder(folder, place=bench_at(folder)), revision)
+    found = standing_of(LabFolder(folder, place=BenchPlace(folder, "sim")), revision)
     assert found is not None
     return found
 
@@ -81,7 +80,7 @@ def carried(folder: Path) -> dict[str, str]:
 
 def own(folder: Path) -> list[Run]:
     """Return the runs that no commit has yet."""
-    return [run.document for run in unrecorded(LabFolder(folder, place=bench_at(folder)))]
+    return [run.document for run in unrecorded(LabFolder(folder, place=BenchPlace(folder, "sim")))]
 
 
 def files_of(folder: Path, run: str, revision: str = "HEAD") -> list[str]:

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from bench_at import bench_at
 from coordinators import BENCH, Served
 from websockets.sync.client import ClientConnection
 
@@ -23,6 +22,7 @@ from pico.edge.local import LocalEdge
 from pico.edge.network.enrolment import enrol, read_enrolment
 from pico.edge.network.uplink import Uplink
 from pico.model.record import as_json
+from pico.places.bench import BenchPlace
 from pico.server.store.edges import Edges
 
 
@@ -44,13 +44,13 @@ class Connected:
 @contextmanager
 def connected(served: Served, root: Path, bench: str = BENCH) -> Iterator[Connected]:
     """Enrol the bench of the lab in `root`, unless it is, and connect its edge meanwhile."""
-    if read_enrolment(bench_at(root)) is None:
+    if read_enrolment(BenchPlace(root, "sim")) is None:
         code, _ = Edges(served.books.database).invited(bench, "test")
-        enrol(bench_at(root), f"http://127.0.0.1:{served.port}", code)
+        enrol(BenchPlace(root, "sim"), f"http://127.0.0.1:{served.port}", code)
     ready, made = threading.Event(), list[Connected]()
 
     async def live() -> None:
-        edge, enrolment = edge_of(bench_at(root), "kinematic"), read_enrolment(bench_at(root))
+        edge, enrolment = edge_of(BenchPlace(root, "sim"), "kinematic"), read_enrolment(BenchPlace(root, "sim"))
         assert enrolment is not None
         uplink, loop = Uplink(edge, enrolment), asyncio.get_running_loop()
         made.append(Connected(edge, uplink, loop))
