@@ -166,7 +166,7 @@ class Network:
         Edges(books.database).enrolled(code, key)
         books.close()
         note = BenchPlace(self.beside, "sim").folder / "enrolment.json"
-        note.parent.mkdir(exist_ok=True)
+        note.parent.mkdir(parents=True, exist_ok=True)
         note.write_text(json.dumps(asdict(Enrolment(f"http://127.0.0.1:{self.far}", BENCH, key))))
 
     @property

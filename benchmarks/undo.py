@@ -87,7 +87,7 @@ class Bench:
 
     def written(self) -> int:
         """Return when the journal was written last [ns]."""
-        log = self.folder / ".pico" / "journal.sqlite-wal"
+        log = self.folder / ".pico/benches/sim/journal.sqlite-wal"
         return log.stat().st_mtime_ns if log.exists() else 0
 
     def began(self) -> str:
