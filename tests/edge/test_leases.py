@@ -27,7 +27,7 @@ from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
-from pico.planning import Planner, set_one
+from pico.planning import Planner, set_values
 
 Acting = Callable[[Callable[[Edge], Awaitable[Any]]], Any]
 
@@ -107,7 +107,7 @@ def test_only_the_last_runs_are_kept_for_who_follows_them(tmp_path: Path, monkey
         for number in range(6):
             seen, angle = await edge.observe(), 10.0 + number
             planner = Planner(edge.setup, None, seen)
-            plan = planner.plan(set_one(planner, "p1", "angle", angle))
+            plan = planner.plan(set_values(planner, "p1", {"angle": angle}))
             await edge.start(Job(plan=plan, holder="test"), f"r{number}")
             await edge.report(f"r{number}")
         assert len([event async for event in edge.events("r5")]) > 2

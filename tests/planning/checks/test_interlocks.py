@@ -26,7 +26,7 @@ from pico.model.pose import Pose
 from pico.model.robot import Mount, Robot
 from pico.model.setup import Setup
 from pico.model.state import LabState
-from pico.planning import home_one, move_one, set_one
+from pico.planning import home_one, move_one, set_values
 from pico.planning.checks.emission import require_licensed
 
 SHUTTER = Tunable(datatype="choice", choices=("open", "closed"), settle=50)
@@ -121,7 +121,7 @@ def test_without_a_move_nobody_touches_the_shutter() -> None:
     made = planned(*case("open", "open", moves=False))
     assert (made.operations, made.policy) == ((), ())
     setup, seen, _ = case("open", None)
-    assert [o.arguments["to"] for o in one(set_one, setup, seen, "laser0", "shutter", "closed").operations] == [
+    assert [o.arguments["to"] for o in one(set_values, setup, seen, "laser0", {"shutter": "closed"}).operations] == [
         "closed"
     ]
 
@@ -188,7 +188,7 @@ def test_a_laser_that_nothing_can_close_is_told() -> None:
 def test_the_shutter_is_closed_while_a_person_works_at_the_table() -> None:
     setup = lit()
     seen = see(setup, at(HERE), {"laser0": {"shutter": "open"}, "a": {"filter": "red"}})
-    close, by_hand, back = one(set_one, setup, seen, "a", "filter", "blue").operations
+    close, by_hand, back = one(set_values, setup, seen, "a", {"filter": "blue"}).operations
     assert (close.arguments["to"], by_hand.primitive, back.arguments["to"]) == ("closed", "operator", "open")
     assert close.reason.text == "a person works in the beam"
     assert close.id in by_hand.after and by_hand.id in back.after

@@ -9,7 +9,7 @@ from drafts import HERE, LIT, lit
 from planning_benches import see, want
 
 from pico.model.plan import Plan, Target
-from pico.planning import PlanGoal, Planner, set_one
+from pico.planning import PlanGoal, Planner, set_values
 
 
 def planner() -> Planner:
@@ -26,7 +26,7 @@ def test_a_plan_says_where_it_begins_and_where_it_leads() -> None:
 
 
 def test_operations_that_are_asked_for_are_done_whatever_else_differs() -> None:
-    asked = set_one(planner(), "a", "angle", 30.0)
+    asked = set_values(planner(), "a", {"angle": 30.0})
     made = planner().plan(asked)
     assert [(o.id, o.primitive, o.component) for o in made.operations] == [("op1", "set", "a")]
     assert made.target.state["a"]["angle"] == 30.0 and made.target.cause == "single"
@@ -42,7 +42,7 @@ def test_the_same_goal_makes_the_same_plan_and_each_is_sealed_once(monkeypatch: 
         return seal(plan)
 
     monkeypatch.setattr(Plan, "sealed", counted)
-    goals = [PlanGoal(want({**HERE, "a": (500, 300), "b": (300, 300)})), set_one(planner(), "a", "angle", 30.0)]
+    goals = [PlanGoal(want({**HERE, "a": (500, 300), "b": (300, 300)})), set_values(planner(), "a", {"angle": 30.0})]
     made = [planner().plan(goal) for goal in goals]
     assert len(sealed) == 2
     assert [planner().plan(goal).digest for goal in goals] == [plan.digest for plan in made]
