@@ -1,0 +1,311 @@
+"""One sequence of `cross_bench.py`: each command is run in a process of its own, and the benches are compared before
+and after it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shlex
+import signal
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from random import Random
+
+import cross_bench_oracle as oracle
+from cross_bench_labs import FAR, GIT, PACE, git
+from cross_bench_oracle import BenchPrint
+from cross_bench_plants import PLANTS
+from cross_bench_sequences import FLAGS, Command, Commands, Model, bench_of
+
+HINT = re.compile(r"`(pico [^`\n]+)`")
+MAY_NAME_OTHERS = ("undo RUN", "runs show RUN", "log", "diff", "commit", "hint")
+"""Kinds that may name runs of other benches: they were given one, or commits hold them."""
+NAMES_BENCH = ("plan", "plan REV", "apply", "apply REV", "status", "drift", "undo", "redo", "resume", "recover")
+"""Kinds whose output names the bench that they mean."""
+TIMEOUT = 120.0
+"""The longest time that a command may take [s]."""
+SHORTEST, LONGEST = 8, 30
+"""How many commands a sequence has."""
+
+
+@dataclass(frozen=True)
+class Options:
+    """How sequences are run."""
+
+    seed: int
+    plant: str = ""
+    """The fault that is planted in PICO; empty for none."""
+    verbose: bool = False
+    """Whether each command is printed."""
+    hints: bool = True
+    """Whether a hint that means another bench is a violation."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a command answered; the exit code of one that was killed is negative."""
+
+    code: int
+    out: str
+    err: str
+    seconds: float
+
+    @property
+    def text(self) -> str:
+        """Standard output and standard error."""
+        return self.out + self.err
+
+
+def by_bench() -> bool:
+    """Return whether this version of PICO keeps each bench in a folder of its own."""
+    import pico
+
+    return (Path(pico.__path__[0]) / "places" / "bench.py").exists()
+
+
+class Trial:
+    """One sequence, over the benches in `at`."""
+
+    def __init__(self, at: Mapping[str, Path], draw: Random, arm: bool, options: Options) -> None:
+        self.far, self.wires, self.scratch = at["far"], at["wires"], at["main"].parent
+        self.model = Model({"main": at["main"]}, {"main": "sim"})
+        self.draw, self.options = draw, options
+        self.commands = Commands(draw, self.model, arm, oracle.BENCHES if by_bench() else ("sim", "remote"))
+        self.usual: dict[str, float] = {}
+        """How long an apply takes by bench [s]."""
+        self.count: Counter[str] = Counter()
+        self.transcript: list[str] = []
+
+    def run(self) -> Iterator[str]:
+        """Run the sequence; yield the violations."""
+        for _ in range(self.draw.randint(SHORTEST, LONGEST)):
+            command = self.commands.draw_one()
+            before = self.prints()
+            heads = {name: git(tree, "rev-parse", "HEAD") for name, tree in self.model.trees.items()}
+            answer = self.execute(command)
+            outlives = command.killed is not None or "remote" in (command.meant, command.stopped)
+            after = self.settled_prints() if outlives else self.prints()
+            self.note(command, answer, before, after)
+            for violation in self.check(command, answer, before, after, heads):
+                self.transcript.append(f"  !! {violation}")
+                yield violation
+            self.learn(command, answer, after)
+
+    def prints(self) -> dict[str, BenchPrint]:
+        """Return the benches as they are now."""
+        return oracle.read_prints(self.model.trees, self.far, self.wires)
+
+    def settled_prints(self) -> dict[str, BenchPrint]:
+        """Return the benches once nothing changes any more: a run of the remote bench outlives its client."""
+        found, ends = self.prints(), time.monotonic() + 10
+        while time.monotonic() < ends:
+            time.sleep(0.1)
+            again = self.prints()
+            if again == found:
+                break
+            found = again
+        return found
+
+    def note(
+        self, command: Command, answer: Answer, before: Mapping[str, BenchPrint], after: Mapping[str, BenchPrint]
+    ) -> None:
+        """Add a command to the transcript and the counts."""
+        meant = command.meant or "none"
+        why = f": {answer.err.strip().splitlines()[0][:110]}" if answer.code > 0 and answer.err.strip() else ""
+        self.transcript.append(f"{command.text}   -> {answer.code}, {meant}{why}")
+        if self.options.verbose:
+            print(f"    {self.transcript[-1]}  ({answer.seconds:.1f} s)", flush=True)
+        self.count[f"{command.kind:14} {meant:9} {'exit 0' if answer.code == 0 else 'not 0'}"] += 1
+        self.count[f"{meant:9} seconds"] += round(answer.seconds)
+        if command.killed is not None and command.meant and after[command.meant].runs != before[command.meant].runs:
+            self.count["killed after a run began"] += 1
+        if command.kind == "hint":
+            self.count["hints run literally"] += 1
+
+    # the oracle
+
+    def check(
+        self, command: Command, answer: Answer, before: Mapping[str, BenchPrint], after: Mapping[str, BenchPrint],
+        heads: Mapping[str, str],
+    ) -> Iterator[str]:  # fmt: skip
+        """Yield the violations of a command."""
+        meant, kind, owners = command.meant, command.kind, self.model.owners
+        if answer.seconds > TIMEOUT:
+            yield f"`{kind}` did not end within {TIMEOUT:g} s"
+        if "Traceback (most recent call last)" in answer.text:
+            yield f"`{kind}` printed a traceback: {answer.text.strip().splitlines()[-1]}"
+        if kind == "bench use" and answer.code:
+            yield f"`bench use {command.use}` was refused: {answer.err.strip()[:200]}"
+        yield from oracle.check_others(before, after, (meant, command.stopped))
+        if command.stopped:
+            yield from oracle.check_look(before[command.stopped], after[command.stopped], command.stopped)
+        if meant is None:
+            return
+        if command.looks:
+            yield from oracle.check_look(before[meant], after[meant], meant)
+        for run in after[meant].runs.keys() - before[meant].runs.keys():
+            if named := oracle.runs_of_others(meant, after[meant].runs[run], owners):
+                yield f"the new run {run} on {meant} refers to {', '.join(named)}"
+        if kind not in MAY_NAME_OTHERS and (named := oracle.runs_of_others(meant, answer.text, owners)):
+            yield f"`{kind}` on {meant} names {', '.join(named)}"
+        if by_bench():
+            yield from self.check_messages(command, answer)
+        elif command.foreign and answer.code == 0:
+            yield f"`{kind}` on {meant} accepted a run of {command.foreign}"
+        tree = self.model.trees[command.tree]
+        if git(tree, "rev-parse", "HEAD") != heads[command.tree]:
+            name = FAR if meant == "remote" else meant
+            yield from oracle.check_commits(tree, heads[command.tree], meant, owners, name)
+        if command.stopped and (answer.code == 130 or "interrupted" in answer.text.lower()):
+            yield f"`stop` on {command.stopped} stopped a run on {meant}"
+        yield from self.check_hints(command, answer)
+
+    def check_messages(self, command: Command, answer: Answer) -> Iterator[str]:
+        """Yield the benches that an answer should have named."""
+        meant, kind = command.meant or "", command.kind
+        if command.foreign and answer.code == 0:
+            yield f"`{kind}` on {meant} accepted a run of {command.foreign}"
+        elif command.foreign and "unexpected extra argument" not in answer.err:  # else it takes no run yet
+            missing = [one for one in (meant, command.foreign) if not _names(one, answer.text)]
+            if missing:
+                text = answer.err.strip()[:200]
+                yield f"`{kind}` on {meant} refused a run of {command.foreign} without naming {missing}: {text}"
+        if kind in NAMES_BENCH and answer.code == 0 and not _names(meant, answer.text):
+            yield f"`{kind}` does not say that it means {meant}"
+        if kind == "commit" and answer.code == 0:
+            for bench in oracle.LOCAL:
+                if bench != meant and self.model.pending_in(command.tree, bench) and not _names(bench, answer.text):
+                    yield f"`commit` on {meant} does not say that runs of {bench} stay pending"
+
+    def check_hints(self, command: Command, answer: Answer) -> Iterator[str]:
+        """Record the hints of an answer, and yield those that mean another bench."""
+        self.model.hints.clear()
+        if command.kind == "hint":
+            return
+        for hint in sorted(set(HINT.findall(re.sub(r"\s*\n\s*", " ", answer.text)))):
+            try:
+                words = shlex.split(hint)
+            except ValueError:
+                continue
+            if not self.commands.can_run(hint):
+                continue
+            self.count["hints printed"] += 1
+            tree = command.cwd
+            if "-C" in words[:-1]:
+                path = Path(words[words.index("-C") + 1])
+                tree = next((name for name, one in self.model.trees.items() if one == path), command.tree)
+            means = bench_of(words, command.environment, self.model.use[tree])
+            explicit = any(word.startswith(("--bench", "--backend", "--emulate")) for word in words)
+            refused = explicit and answer.code != 0  # a refusal may point to the other bench
+            if means == command.meant or refused:
+                self.model.hints.append((hint, replace(command, meant=means)))
+            elif self.options.hints:
+                yield f"a hint of `{command.kind}` on {command.meant} means {means}: `{hint}`"
+
+    # the model
+
+    def learn(self, command: Command, answer: Answer, after: Mapping[str, BenchPrint]) -> None:
+        """Record what a command made: runs, worktrees, the bench in use, commits."""
+        model = self.model
+        for bench, one in after.items():
+            for run in one.runs.keys() - model.owners.keys():
+                model.owners[run] = command.meant or bench
+                model.pending[run] = answer.code == 0 and command.kind in ("apply", "apply REV", "set", "gate", "move")
+        for tree in model.trees.values():
+            if command.kind in ("commit", "hint"):
+                for run in oracle.RUN.findall(git(tree, "ls-files", "runs")):
+                    model.pending.pop(run, None)
+        if answer.code == 0 and command.kind == "bench use":
+            model.use[command.tree] = command.use
+        if answer.code == 0 and command.kind == "worktree":
+            name = Path(command.words[-2]).name
+            model.trees[name] = self.scratch / name
+            model.use[name] = "sim"
+
+    # processes
+
+    def execute(self, command: Command) -> Answer:
+        """Run a command to its end, or until it is killed."""
+        child = self._start(command)
+        usual = self.usual.get(command.meant or "", 0.5)
+        if command.stopped:
+            time.sleep(self.draw.random() * usual)
+            words = ("pico", *FLAGS[command.stopped][0], "stop")
+            self._start(replace(command, words=words, environment={})).wait()
+        if command.killed is not None:
+            time.sleep(command.killed * usual)
+            os.kill(child.process, signal.SIGKILL)
+        answer = child.wait()
+        if command.kind.startswith("apply") and answer.code == 0 and command.meant:
+            self.usual[command.meant] = 0.5 * usual + 0.5 * answer.seconds
+        return answer
+
+    def _start(self, command: Command) -> Child:
+        environment = {
+            **{k: v for k, v in os.environ.items() if not k.startswith(("PICO_", "GIT_"))}, **GIT,
+            "PICO_TOKEN": os.environ["PICO_TOKEN"], "PICO_EMULATED_PACE": PACE, **command.environment,
+        }  # fmt: skip
+        folder = self.model.trees[command.cwd]
+        return Child(command.words, folder, environment, self.scratch, command.typed, self.options.plant)
+
+
+def _names(bench: str, text: str) -> bool:
+    """Return whether a text names a bench."""
+    return (FAR if bench == "remote" else bench) in text
+
+
+class Child:
+    """A command in a process that is forked from this one, which has already imported what commands need."""
+
+    number = 0
+
+    def __init__(
+        self, words: tuple[str, ...], folder: Path, environment: dict[str, str], scratch: Path, typed: str, plant: str
+    ) -> None:
+        Child.number += 1
+        self._out, self._err = (scratch / f"{Child.number}.{name}" for name in ("out", "err"))
+        self._began = time.monotonic()
+        self.process = os.fork()
+        if self.process == 0:
+            try:
+                self._become(words, folder, environment, typed, plant)
+            except BaseException as exc:
+                print(f"{shlex.join(words)}: {exc!r}", file=sys.stderr, flush=True)
+            finally:
+                os._exit(70)
+
+    def _become(
+        self, words: tuple[str, ...], folder: Path, environment: dict[str, str], typed: str, plant: str
+    ) -> None:
+        if typed:
+            ours, stdin = os.openpty()
+            os.write(ours, typed.encode())
+        else:
+            stdin = os.open(os.devnull, os.O_RDONLY)
+        os.dup2(stdin, 0)
+        if words[0] != "pico":
+            for path, stream in ((self._out, 1), (self._err, 2)):
+                os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT, 0o600), stream)
+            os.chdir(folder)
+            os.execvpe(words[0], words, environment)
+        from cli.warm import _become
+
+        if plant:
+            PLANTS[plant].plant()
+        _become({"out": str(self._out), "err": str(self._err), "environment": environment, "folder": str(folder),
+                 "words": list(words[1:]), "confined": None})  # fmt: skip
+
+    def wait(self) -> Answer:
+        """Wait until the process has ended, at most `TIMEOUT`, and return its answer."""
+        while not (ended := os.waitpid(self.process, os.WNOHANG))[0]:
+            if time.monotonic() - self._began > TIMEOUT:
+                os.kill(self.process, signal.SIGKILL)
+            time.sleep(0.005)
+        texts = [path.read_text(errors="replace") if path.exists() else "" for path in (self._out, self._err)]
+        for path in (self._out, self._err):
+            path.unlink(missing_ok=True)
+        return Answer(os.waitstatus_to_exitcode(ended[1]), texts[0], texts[1], time.monotonic() - self._began)
