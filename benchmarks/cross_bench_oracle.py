@@ -105,6 +105,15 @@ def _rows(path: Path) -> dict[str, str]:
     return found
 
 
+def count_runs(journal: Path) -> int:
+    """Return how many runs a journal holds; 0 if it cannot be read."""
+    try:
+        with closing(sqlite3.connect(f"file:{journal}?mode=ro", uri=True, timeout=10)) as database:
+            return int(database.execute("SELECT count(*) FROM runs").fetchone()[0])
+    except sqlite3.Error:
+        return 0
+
+
 def changes(before: BenchPrint, after: BenchPrint) -> list[str]:
     """Return what changed on a bench: files and runs."""
     files = [f"{'changed' if name in before.files else 'new'}: {name}" for name, digest in after.files.items()

@@ -26,7 +26,7 @@ LOOKS = ("plan", "status", "drift", "runs", "runs show", "log", "diff", "bench l
 KINDS = {
     "plan": 6, "plan REV": 4, "status": 6, "drift": 3, "runs": 3, "runs show": 2, "runs show RUN": 4, "log": 1,
     "apply": 9, "apply REV": 8, "set": 8, "gate": 3, "move": 2, "measure": 3, "undo": 8, "redo": 4, "undo RUN": 5,
-    "resume": 5, "recover": 3, "stop": 4, "commit": 7, "capture": 4, "edit": 5, "bench use": 9, "checkout": 5,
+    "resume": 5, "recover": 3, "stop": 4, "commit": 10, "capture": 4, "edit": 5, "bench use": 9, "checkout": 5,
     "branch": 1, "worktree": 2, "attach": 2, "killed": 7, "stop beside": 3, "hint": 25,
 }  # fmt: skip
 """The weight of each kind of command."""
@@ -180,7 +180,7 @@ class Commands:
             "move": ("move", "lens", f"x={draw.choice((560, 600, 640))}", f"y={draw.choice((380, 420))}", *YES),
             "measure": ("measure", "meter.power"), "undo": ("undo", *YES), "redo": ("redo", *YES),
             "resume": ("resume", *YES), "recover": ("recover", *YES),
-            "commit": ("commit", "-m", "as it stands", *draw.choice(((), ("--capture",), ("--allow-empty",)))),
+            "commit": ("commit", "-m", "as it stands", *draw.choice(((), *2 * (("--capture",),), ("--allow-empty",)))),
             "log": ("log", "-n", "3"),
         }  # fmt: skip
         return words.get(kind, tuple(kind.split()))

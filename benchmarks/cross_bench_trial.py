@@ -115,7 +115,8 @@ class Trial:
     ) -> None:
         """Add a command to the transcript and the counts."""
         meant = command.meant or "none"
-        why = f": {answer.err.strip().splitlines()[0][:110]}" if answer.code > 0 and answer.err.strip() else ""
+        lines = sorted(answer.err.strip().splitlines(), key=lambda line: not line.startswith("error"))
+        why = f": {lines[0][:120]}" if answer.code > 0 and lines else ""
         self.transcript.append(f"{command.text}   -> {answer.code}, {meant}{why}")
         if self.options.verbose:
             print(f"    {self.transcript[-1]}  ({answer.seconds:.1f} s)", flush=True)
@@ -133,7 +134,7 @@ class Trial:
         heads: Mapping[str, str],
     ) -> Iterator[str]:  # fmt: skip
         """Yield the violations of a command."""
-        meant, kind, owners = command.meant, command.kind, self.model.owners
+        meant, kind = command.meant, command.kind
         if answer.seconds > TIMEOUT:
             yield f"`{kind}` did not end within {TIMEOUT:g} s"
         if "Traceback (most recent call last)" in answer.text:
@@ -143,33 +144,39 @@ class Trial:
         yield from oracle.check_others(before, after, (meant, command.stopped))
         if command.stopped:
             yield from oracle.check_look(before[command.stopped], after[command.stopped], command.stopped)
-        if meant is None:
-            return
-        if command.looks:
-            yield from oracle.check_look(before[meant], after[meant], meant)
-        for run in after[meant].runs.keys() - before[meant].runs.keys():
-            if named := oracle.runs_of_others(meant, after[meant].runs[run], owners):
+            if answer.code == 130 or "interrupted" in answer.text.lower():
+                yield f"`stop` on {command.stopped} stopped a run on {meant}"
+        if meant is not None:
+            if command.looks:
+                yield from oracle.check_look(before[meant], after[meant], meant)
+            yield from self.check_runs(command, answer, before[meant], after[meant], heads[command.tree])
+            if by_bench():
+                yield from self.check_messages(command, answer)
+            yield from self.check_hints(command, answer)
+
+    def check_runs(
+        self, command: Command, answer: Answer, before: BenchPrint, after: BenchPrint, head: str
+    ) -> Iterator[str]:
+        """Yield the runs of other benches that a command used, named or committed."""
+        meant, kind, owners = command.meant or "", command.kind, self.model.owners
+        for run in after.runs.keys() - before.runs.keys():
+            if named := oracle.runs_of_others(meant, after.runs[run], owners):
                 yield f"the new run {run} on {meant} refers to {', '.join(named)}"
         if kind not in MAY_NAME_OTHERS and (named := oracle.runs_of_others(meant, answer.text, owners)):
             yield f"`{kind}` on {meant} names {', '.join(named)}"
-        if by_bench():
-            yield from self.check_messages(command, answer)
-        elif command.foreign and answer.code == 0:
+        if command.foreign and answer.code == 0:
             yield f"`{kind}` on {meant} accepted a run of {command.foreign}"
         tree = self.model.trees[command.tree]
-        if git(tree, "rev-parse", "HEAD") != heads[command.tree]:
+        if git(tree, "rev-parse", "HEAD") != head:
             name = FAR if meant == "remote" else meant
-            yield from oracle.check_commits(tree, heads[command.tree], meant, owners, name)
-        if command.stopped and (answer.code == 130 or "interrupted" in answer.text.lower()):
-            yield f"`stop` on {command.stopped} stopped a run on {meant}"
-        yield from self.check_hints(command, answer)
+            yield from oracle.check_commits(tree, head, meant, owners, name)
 
     def check_messages(self, command: Command, answer: Answer) -> Iterator[str]:
         """Yield the benches that an answer should have named."""
         meant, kind = command.meant or "", command.kind
-        if command.foreign and answer.code == 0:
-            yield f"`{kind}` on {meant} accepted a run of {command.foreign}"
-        elif command.foreign and "unexpected extra argument" not in answer.err:  # else it takes no run yet
+        if (
+            command.foreign and answer.code and "unexpected extra argument" not in answer.err
+        ):  # else it takes no run yet
             missing = [one for one in (meant, command.foreign) if not _names(one, answer.text)]
             if missing:
                 text = answer.err.strip()[:200]
@@ -237,12 +244,28 @@ class Trial:
             words = ("pico", *FLAGS[command.stopped][0], "stop")
             self._start(replace(command, words=words, environment={})).wait()
         if command.killed is not None:
+            if self.draw.random() < 0.7:  # in the middle of a run, else at any moment
+                self._wait_for_run(command.meant, child)
+                usual *= 0.3
             time.sleep(command.killed * usual)
-            os.kill(child.process, signal.SIGKILL)
+            if not child.ended():
+                os.kill(child.process, signal.SIGKILL)
         answer = child.wait()
         if command.kind.startswith("apply") and answer.code == 0 and command.meant:
             self.usual[command.meant] = 0.5 * usual + 0.5 * answer.seconds
         return answer
+
+    def _wait_for_run(self, bench: str | None, child: Child) -> None:
+        """Wait until a run begins on a bench, or the process has ended."""
+        before = self._runs_begun(bench)
+        while self._runs_begun(bench) == before and not child.ended():
+            time.sleep(0.002)
+
+    def _runs_begun(self, bench: str | None) -> int:
+        folders = [self.far] if bench == "remote" else list(self.model.trees.values())
+        kept = ("*.sqlite", f"benches/{'sim' if bench == 'remote' else bench}/journal.sqlite")
+        paths = [path for folder in folders for one in kept for path in (folder / ".pico").glob(one)]
+        return sum(oracle.count_runs(path) for path in paths)
 
     def _start(self, command: Command) -> Child:
         environment = {
@@ -269,6 +292,7 @@ class Child:
         Child.number += 1
         self._out, self._err = (scratch / f"{Child.number}.{name}" for name in ("out", "err"))
         self._began = time.monotonic()
+        self._code: int | None = None
         self.process = os.fork()
         if self.process == 0:
             try:
@@ -287,6 +311,7 @@ class Child:
         else:
             stdin = os.open(os.devnull, os.O_RDONLY)
         os.dup2(stdin, 0)
+        sys.stdin = open(0, closefd=False)  # noqa: SIM115  # that of a worker of a pool is another file
         if words[0] != "pico":
             for path, stream in ((self._out, 1), (self._err, 2)):
                 os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT, 0o600), stream)
@@ -299,13 +324,19 @@ class Child:
         _become({"out": str(self._out), "err": str(self._err), "environment": environment, "folder": str(folder),
                  "words": list(words[1:]), "confined": None})  # fmt: skip
 
+    def ended(self) -> bool:
+        """Return whether the process has ended."""
+        if self._code is None and (ended := os.waitpid(self.process, os.WNOHANG))[0]:
+            self._code = os.waitstatus_to_exitcode(ended[1])
+        return self._code is not None
+
     def wait(self) -> Answer:
         """Wait until the process has ended, at most `TIMEOUT`, and return its answer."""
-        while not (ended := os.waitpid(self.process, os.WNOHANG))[0]:
+        while not self.ended():
             if time.monotonic() - self._began > TIMEOUT:
                 os.kill(self.process, signal.SIGKILL)
             time.sleep(0.005)
         texts = [path.read_text(errors="replace") if path.exists() else "" for path in (self._out, self._err)]
         for path in (self._out, self._err):
             path.unlink(missing_ok=True)
-        return Answer(os.waitstatus_to_exitcode(ended[1]), texts[0], texts[1], time.monotonic() - self._began)
+        return Answer(self._code or 0, texts[0], texts[1], time.monotonic() - self._began)
