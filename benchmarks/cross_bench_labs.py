@@ -189,15 +189,6 @@ class Wire:
                 self.open -= 1
 
 
-def world_place(root: Path) -> Any:
-    """Return where the world behind the emulators is kept, as this version of PICO names it."""
-    try:
-        from pico.places.bench import BenchPlace
-    except ImportError:  # one folder holds all benches
-        return root
-    return BenchPlace(root, "emulated")
-
-
 def _table(root: Path, place: Path, ready: int) -> None:
     """Serve the emulators of the lab in `root`. Write the addresses to the file descriptor `ready`, then answer each
     connection to the socket `place` with the traffic so far."""
@@ -205,10 +196,11 @@ def _table(root: Path, place: Path, ready: int) -> None:
     from pico.backends.emulated.bench import brought_up
     from pico.backends.instruments import emulated
     from pico.manifest.load import load_folder
+    from pico.places.bench import BenchPlace
 
     setup, _ = load_folder(root).require()
     assert setup.wiring
-    _, running = brought_up(setup, world_place(root), emulated(dict(setup.wiring.devices)))
+    _, running = brought_up(setup, BenchPlace(root, "emulated"), emulated(dict(setup.wiring.devices)))
     wires, at = dict[tuple[str, int], Wire](), dict[str, dict[str, Any]]()
     for name, entry in running.entries.items():
         visa = str(entry.address.get("visa", ""))

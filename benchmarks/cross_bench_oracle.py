@@ -21,9 +21,9 @@ BENCHES = ("sim", "emulated", "hardware", "remote")
 LOCAL = BENCHES[:3]
 RUN = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{6}")
 IGNORED = re.compile(
-    r"(^|/)(lock|[\w.]+\.lock|holder\.json|write\.tmp|[\w.]+-(wal|shm)|enrolment\.json|bench\d*/session)$"
+    r"(^|/)(lock|[\w.]+\.lock|holder\.json|write\.tmp|[\w.]+-(wal|shm)|\.[\w.]+\.tmp|enrolment\.json|bench\d*/session)$"
 )
-"""Files that do not count: locks with their holder, SQLite's scratch files (journals are compared by their rows), the
+"""Files that do not count: locks with their holder, scratch files (journals are compared by their rows), the
 key of the remote bench at its coordinator, and the name under which a checkout is known there."""
 OBSERVED = re.compile(r"/(seen|settings|audit)\.json$")
 """Files that a command may write when it only looks: where parts were last seen, settings that cannot be read from a
@@ -59,13 +59,6 @@ def _read_folder(found: Mapping[str, BenchPrint], tree: str, folder: Path) -> No
         name = f"{tree}/{path.relative_to(folder.parent)}"
         if parts[0] == "benches" and len(parts) > 2:
             _add(found[parts[1] if parts[1] in LOCAL else "remote"], name, path)
-        elif parts[0] in LOCAL:  # an older layout: one journal for all benches
-            _add(found[parts[0]], name, path)
-        elif path.name == "journal.sqlite":
-            for run, text in _rows(path).items():
-                backend = re.search(r'"backend":\s*"(\w+)"', text)
-                if run:
-                    found[backend[1] if backend and backend[1] in LOCAL else "sim"].runs[run] = text
 
 
 def _files(folder: Path) -> list[Path]:
@@ -170,8 +163,5 @@ def check_commits(tree: Path, before: str, bench: str, owners: Mapping[str, str]
         whose, written = owners.get(run["id"]), run.get("bench")
         if whose is not None and whose != bench:
             yield f"a commit for {bench} holds run {run['id']} of {whose}"
-        if written is not None and name not in str(written):
+        if name not in str(written):
             yield f"a commit for {bench} holds run {run['id']}, which says bench {written!r}"
-        backend = run.get("environment", {}).get("backend")
-        if written is None and bench not in ("remote", backend):
-            yield f"a commit for {bench} holds run {run['id']}, which was run on {backend}"

@@ -101,29 +101,27 @@ def _recovers_any(name: str) -> Callable[[], None]:
     return plant
 
 
-def _commits_all() -> None:
-    """A commit takes the runs of all benches."""
+def _of_all_benches(unrecorded: Any) -> Any:
+    """Return a reader of the runs that no commit holds, which reads those of all benches of this machine."""
     from pico.history.lab.folder import LabFolder
-    from pico.history.runs import uncommitted
     from pico.places.bench import BenchPlace
 
-    own, inside = uncommitted._unrecorded, [False]
-
-    def unrecorded(folder: Any, *given: Any, **more: Any) -> Any:
-        found = own(folder, *given, **more)
-        if inside[0]:
-            return found
-        inside[0] = True
-        try:
-            for name in _LOCAL:
-                place = BenchPlace(folder.root, name)
-                if place != folder.place and (place.folder / "journal.sqlite").exists():
-                    found = [*found, *own(LabFolder(folder.root, history=True, place=place), *given, **more)]
-        finally:
-            inside[0] = False
+    def read(folder: Any, *given: Any) -> Any:
+        found = list(unrecorded(folder, *given))
+        for name in _LOCAL:
+            place = BenchPlace(folder.root, name)
+            if place != folder.place and (place.folder / "journal.sqlite").exists():
+                found += unrecorded(LabFolder(folder.root, history=True, place=place), *given)
         return found
 
-    uncommitted._unrecorded = unrecorded
+    return read
+
+
+def _commits_all() -> None:
+    """A commit takes the runs of all benches."""
+    from pico.history.runs import uncommitted
+
+    uncommitted.unrecorded = _of_all_benches(uncommitted.unrecorded)
     uncommitted._of = lambda *_: True
 
 
@@ -189,22 +187,9 @@ def _bare_hints() -> None:
 
 def _run_of_any() -> None:
     """A run is found by its id, whichever bench it is of."""
-    from pico.history.runs import uncommitted
-    from pico.places.bench import BenchPlace
-    from pico.history.lab.folder import LabFolder
+    from pico.history.runs import loading
 
-    own = uncommitted.find_uncommitted
-
-    def find(folder: Any, *given: Any, **more: Any) -> Any:
-        for name in _LOCAL:
-            with suppress(Exception):
-                if found := own(
-                    LabFolder(folder.root, history=True, place=BenchPlace(folder.root, name)), *given, **more
-                ):
-                    return found
-        return own(folder, *given, **more)
-
-    uncommitted.find_uncommitted = find
+    loading.unrecorded = _of_all_benches(loading.unrecorded)
 
 
 PLANTS: dict[str, Plant] = {

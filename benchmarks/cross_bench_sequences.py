@@ -33,7 +33,7 @@ KINDS = {
 YES = ("--yes",)
 NOT_RUN = re.compile(
     r"^pico( -\S+)* (init|gui|edge|serve|login|git (install|uninstall|attach)|bench (use|list|update)|remote|calibrate|"
-    r"commission|teleop|doctor|help|completion|test|check|fleet|mcp|sim|laser|morning|optimize|data|devices|import)\b|--help"
+    r"commission|teleop|doctor|help|completion|test|check|fleet|mcp|sim|laser|morning|optimize|data|devices|import|show|log|diff|blame|checkout|validate|catalog)\b|--help"
 )
 """Hints that mean no bench, choose one, act on the simulated world alone, or take long."""
 PLACEHOLDER = re.compile(r"[A-Z]{3,}|\.\.\.|…|[<>|]|KEY=")
@@ -126,16 +126,11 @@ def _option(words: Sequence[str], option: str) -> str | None:
 
 
 class Commands:
-    """Draws commands. `arm`: whether the lab has a robot; `uses`: the benches that `bench use` accepts."""
+    """Draws commands. `arm`: whether the lab has a robot."""
 
-    def __init__(self, draw: Random, model: Model, arm: bool, uses: Sequence[str] = BENCHES) -> None:
-        self.draw, self.model, self.arm, self.uses = draw, model, arm, uses
+    def __init__(self, draw: Random, model: Model, arm: bool) -> None:
+        self.draw, self.model, self.arm = draw, model, arm
         self.weights = {kind: weight for kind, weight in KINDS.items() if arm or kind != "move"}
-
-    @property
-    def by_name(self) -> bool:
-        """Whether the local benches have names for `--bench` and `bench use`."""
-        return len(self.uses) == len(BENCHES)
 
     def draw_one(self) -> Command:
         """Draw the next command."""
@@ -155,13 +150,12 @@ class Commands:
         how = self.draw.random()
         if to or how < 0.45:
             bench = to or self.draw.choice(BENCHES)
-            flags = self.draw.choice((*FLAGS[bench], *((("--bench", USES[bench][0]),) if self.by_name else ())))
+            flags = self.draw.choice((*FLAGS[bench], ("--bench", USES[bench][0])))
         elif how < 0.6:
-            by_name = LOCAL[:2] if self.by_name else ()
-            environment = {"PICO_BENCH": self.draw.choice((FAR, f"lab/{FAR}", "local", *by_name))}
+            environment = {"PICO_BENCH": self.draw.choice((FAR, f"lab/{FAR}", "local", *LOCAL[:2]))}
             if how < 0.5:
                 flags = self.draw.choice(FLAGS[self.draw.choice(BENCHES)])
-        elif how < 0.62 and self.by_name:
+        elif how < 0.62:
             environment = {"PICO_BENCH": "hardware"}
         if cwd != tree:
             flags = ("-C", str(self.model.trees[tree]), *flags)
@@ -197,14 +191,14 @@ class Commands:
         return replace(drawn, foreign=owner if owner != drawn.meant else "")
 
     def _undo_run(self) -> Command | None:
-        return self._run("undo RUN", ("undo",), pending=False) if self.by_name else None
+        return self._run("undo RUN", ("undo",), pending=False)
 
     def _runs_show_run(self) -> Command | None:
         return self._run("runs show RUN", ("runs", "show"), pending=True)
 
     def _bench_use(self) -> Command:
-        tree, bench = self.draw.choice(sorted(self.model.trees)), self.draw.choice(self.uses)
-        words = ("pico", "bench", "use", self.draw.choice(USES[bench] if self.by_name else USES[bench][-1:]))
+        tree, bench = self.draw.choice(sorted(self.model.trees)), self.draw.choice(BENCHES)
+        words = ("pico", "bench", "use", self.draw.choice(USES[bench]))
         return Command("bench use", words, tree, tree, None, use=bench)
 
     def _git(self, kind: str, *words: str) -> Command:

@@ -24,6 +24,9 @@ from cross_bench_sequences import FLAGS, Command, Commands, Model, bench_of
 HINT = re.compile(r"`(pico [^`\n]+)`")
 MAY_NAME_OTHERS = ("undo RUN", "runs show RUN", "log", "diff", "commit", "hint")
 """Kinds that may name runs of other benches: they were given one, or commits hold them."""
+MAY_POINT_ELSEWHERE = ("commit", "stop")
+"""Kinds whose hints may mean another bench by their flags, as those of a refusal may: runs stay pending there, or go
+on there."""
 NAMES_BENCH = ("plan", "plan REV", "apply", "apply REV", "status", "drift", "undo", "redo", "resume", "recover")
 """Kinds whose output names the bench that they mean."""
 TIMEOUT = 120.0
@@ -60,13 +63,6 @@ class Answer:
         return self.out + self.err
 
 
-def by_bench() -> bool:
-    """Return whether this version of PICO keeps each bench in a folder of its own."""
-    import pico
-
-    return (Path(pico.__path__[0]) / "places" / "bench.py").exists()
-
-
 class Trial:
     """One sequence, over the benches in `at`."""
 
@@ -74,7 +70,7 @@ class Trial:
         self.far, self.wires, self.scratch = at["far"], at["wires"], at["main"].parent
         self.model = Model({"main": at["main"]}, {"main": "sim"})
         self.draw, self.options = draw, options
-        self.commands = Commands(draw, self.model, arm, oracle.BENCHES if by_bench() else ("sim", "remote"))
+        self.commands = Commands(draw, self.model, arm)
         self.usual: dict[str, float] = {}
         """How long an apply takes by bench [s]."""
         self.count: Counter[str] = Counter()
@@ -137,8 +133,8 @@ class Trial:
         meant, kind = command.meant, command.kind
         if answer.seconds > TIMEOUT:
             yield f"`{kind}` did not end within {TIMEOUT:g} s"
-        if "Traceback (most recent call last)" in answer.text:
-            yield f"`{kind}` printed a traceback: {answer.text.strip().splitlines()[-1]}"
+        if failure := re.search(r"error\[internal\].*|Traceback \(most recent call last\)", answer.text):
+            yield f"`{kind}` failed inside PICO: {failure[0][:160]}"
         if kind == "bench use" and answer.code:
             yield f"`bench use {command.use}` was refused: {answer.err.strip()[:200]}"
         yield from oracle.check_others(before, after, (meant, command.stopped))
@@ -150,8 +146,7 @@ class Trial:
             if command.looks:
                 yield from oracle.check_look(before[meant], after[meant], meant)
             yield from self.check_runs(command, answer, before[meant], after[meant], heads[command.tree])
-            if by_bench():
-                yield from self.check_messages(command, answer)
+            yield from self.check_messages(command, answer)
             yield from self.check_hints(command, answer)
 
     def check_runs(
@@ -160,9 +155,11 @@ class Trial:
         """Yield the runs of other benches that a command used, named or committed."""
         meant, kind, owners = command.meant or "", command.kind, self.model.owners
         for run in after.runs.keys() - before.runs.keys():
-            if named := oracle.runs_of_others(meant, after.runs[run], owners):
-                yield f"the new run {run} on {meant} refers to {', '.join(named)}"
-        if kind not in MAY_NAME_OTHERS and (named := oracle.runs_of_others(meant, answer.text, owners)):
+            if others := oracle.runs_of_others(meant, after.runs[run], owners):
+                yield f"the new run {run} on {meant} refers to {', '.join(others)}"
+        named = oracle.runs_of_others(meant, answer.text, owners)
+        refused = answer.code != 0 and all(_names(owners[one[:23]], answer.text) for one in named)
+        if kind not in MAY_NAME_OTHERS and named and not refused:
             yield f"`{kind}` on {meant} names {', '.join(named)}"
         if command.foreign and answer.code == 0:
             yield f"`{kind}` on {meant} accepted a run of {command.foreign}"
@@ -177,7 +174,8 @@ class Trial:
         if (
             command.foreign and answer.code and "unexpected extra argument" not in answer.err
         ):  # else it takes no run yet
-            missing = [one for one in (meant, command.foreign) if not _names(one, answer.text)]
+            named = (meant, command.foreign) if command.foreign != "remote" else (meant,)  # only its coordinator knows
+            missing = [one for one in named if not _names(one, answer.text)]
             if missing:
                 text = answer.err.strip()[:200]
                 yield f"`{kind}` on {meant} refused a run of {command.foreign} without naming {missing}: {text}"
@@ -207,8 +205,8 @@ class Trial:
                 tree = next((name for name, one in self.model.trees.items() if one == path), command.tree)
             means = bench_of(words, command.environment, self.model.use[tree])
             explicit = any(word.startswith(("--bench", "--backend", "--emulate")) for word in words)
-            refused = explicit and answer.code != 0  # a refusal may point to the other bench
-            if means == command.meant or refused:
+            other = explicit and (answer.code != 0 or command.kind in MAY_POINT_ELSEWHERE)
+            if means == command.meant or other:
                 self.model.hints.append((hint, replace(command, meant=means)))
             elif self.options.hints:
                 yield f"a hint of `{command.kind}` on {command.meant} means {means}: `{hint}`"
