@@ -121,7 +121,8 @@ def main() -> int:
     if not given.plant:
         return 1 if report(ks, options, given.jobs) else 0
     names = list(PLANTS) if given.plant == "all" else [given.plant]
-    missed = [name for name in names if not find_plant(ks, replace(options, plant=name))]
+    hints = {name: options.hints or name == "bare-hints" for name in names}
+    missed = [name for name in names if not find_plant(ks, replace(options, plant=name, hints=hints[name]))]
     return 1 if missed else 0
 
 

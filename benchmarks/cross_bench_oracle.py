@@ -153,15 +153,21 @@ def runs_of_others(bench: str, text: str, owners: Mapping[str, str]) -> list[str
     return sorted({f"{run} (of {owners[run]})" for run in RUN.findall(text) if owners.get(run, bench) != bench})
 
 
+def runs_in(document: Path) -> set[str]:
+    """Return the runs that the document of a committed run holds: its own, and those that are folded into it."""
+    run = json.loads(document.read_text())
+    return {run["id"], *RUN.findall(json.dumps(run.get("folded", [])))}
+
+
 def check_commits(tree: Path, before: str, bench: str, owners: Mapping[str, str], name: str) -> Iterator[str]:
     """Yield the runs of other benches in the commits since `before`, which were made for `bench`; `name`: what a run
     calls that bench."""
     for path in git(tree, "diff", "--name-only", "--diff-filter=A", before, "HEAD").splitlines():
         if not path.endswith("/run.json"):
             continue
-        run = json.loads((tree / path).read_text())
-        whose, written = owners.get(run["id"]), run.get("bench")
-        if whose is not None and whose != bench:
-            yield f"a commit for {bench} holds run {run['id']} of {whose}"
+        for run in runs_in(tree / path):
+            if owners.get(run, bench) != bench:
+                yield f"a commit for {bench} holds run {run} of {owners[run]}"
+        run, written = Path(path).parent.name, json.loads((tree / path).read_text()).get("bench")
         if name not in str(written):
-            yield f"a commit for {bench} holds run {run['id']}, which says bench {written!r}"
+            yield f"a commit for {bench} holds run {run}, which says bench {written!r}"

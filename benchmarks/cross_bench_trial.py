@@ -24,6 +24,8 @@ from cross_bench_sequences import FLAGS, Command, Commands, Model, bench_of
 HINT = re.compile(r"`(pico [^`\n]+)`")
 MAY_NAME_OTHERS = ("undo RUN", "runs show RUN", "log", "diff", "commit", "hint")
 """Kinds that may name runs of other benches: they were given one, or commits hold them."""
+SHOWS_COMMITTED = ("runs", "runs show")
+"""Kinds that show the runs of commits, too, of whichever bench these are."""
 MAY_POINT_ELSEWHERE = ("commit", "stop")
 """Kinds whose hints may mean another bench by their flags, as those of a refusal may: runs stay pending there, or go
 on there."""
@@ -157,6 +159,8 @@ class Trial:
         for run in after.runs.keys() - before.runs.keys():
             if others := oracle.runs_of_others(meant, after.runs[run], owners):
                 yield f"the new run {run} on {meant} refers to {', '.join(others)}"
+        if kind in SHOWS_COMMITTED:
+            owners = {run: bench for run, bench in owners.items() if run in self.model.pending}
         named = oracle.runs_of_others(meant, answer.text, owners)
         refused = answer.code != 0 and all(_names(owners[one[:23]], answer.text) for one in named)
         if kind not in MAY_NAME_OTHERS and named and not refused:
@@ -174,7 +178,7 @@ class Trial:
         if (
             command.foreign and answer.code and "unexpected extra argument" not in answer.err
         ):  # else it takes no run yet
-            named = (meant, command.foreign) if command.foreign != "remote" else (meant,)  # only its coordinator knows
+            named = (meant, command.foreign) if command.foreign != "remote" else ()  # only its coordinator knows
             missing = [one for one in named if not _names(one, answer.text)]
             if missing:
                 text = answer.err.strip()[:200]
@@ -220,9 +224,9 @@ class Trial:
             for run in one.runs.keys() - model.owners.keys():
                 model.owners[run] = command.meant or bench
                 model.pending[run] = answer.code == 0 and command.kind in ("apply", "apply REV", "set", "gate", "move")
-        for tree in model.trees.values():
-            if command.kind in ("commit", "hint"):
-                for run in oracle.RUN.findall(git(tree, "ls-files", "runs")):
+        if command.kind in ("commit", "hint"):
+            for path in model.trees[command.tree].glob("runs/*/*/*/run.json"):
+                for run in oracle.runs_in(path):
                     model.pending.pop(run, None)
         if answer.code == 0 and command.kind == "bench use":
             model.use[command.tree] = command.use
