@@ -35,7 +35,7 @@ from random import Random, randrange
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), *(str(ROOT / name) for name in ("benchmarks", "tests", "tests/edge"))]
 
-from cross_bench_labs import FAR, benches  # noqa: E402
+from cross_bench_labs import FAR, benches, end_with_parent  # noqa: E402
 from cross_bench_oracle import RUN  # noqa: E402
 from cross_bench_plants import PLANTS  # noqa: E402
 from cross_bench_trial import Options, Trial  # noqa: E402
@@ -134,6 +134,7 @@ def _load() -> None:
 
     relaying.BENCH = FAR
     os.environ["PICO_TOKEN"] = relaying.TOKEN
+    os.register_at_fork(after_in_child=end_with_parent)
     stdout = os.dup(1)
     os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # it runs a few commands
     load()

@@ -3,6 +3,7 @@ emulators in a process of their own, and a remote bench behind a coordinator."""
 
 from __future__ import annotations
 
+import ctypes
 import json
 import os
 import re
@@ -241,6 +242,16 @@ def read_traffic(place: Path) -> Traffic:
             answer += data
     found = json.loads(answer)
     return Traffic({k: v[0] for k, v in found.items()}, {k: v[1] for k, v in found.items()})
+
+
+TIED = [True]
+"""Whether processes that are forked from now on end with their parent; what PICO forks itself does not."""
+
+
+def end_with_parent() -> None:
+    """Have the system kill this process when its parent ends, on Linux."""
+    if TIED[0] and sys.platform == "linux":
+        ctypes.CDLL(None).prctl(1, signal.SIGKILL, 0, 0, 0)
 
 
 def fork(work: Callable[[int], None]) -> tuple[int, str]:

@@ -7,7 +7,6 @@ import os
 import re
 import shlex
 import signal
-import sys
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping
@@ -16,9 +15,9 @@ from pathlib import Path
 from random import Random
 
 import cross_bench_oracle as oracle
+from cross_bench_child import TIMEOUT, Answer, Child
 from cross_bench_labs import FAR, GIT, PACE, git
 from cross_bench_oracle import BenchPrint
-from cross_bench_plants import PLANTS
 from cross_bench_sequences import FLAGS, Command, Commands, Model, bench_of
 
 HINT = re.compile(r"`(pico [^`\n]+)`")
@@ -31,8 +30,6 @@ MAY_POINT_ELSEWHERE = ("commit", "stop")
 on there."""
 NAMES_BENCH = ("plan", "plan REV", "apply", "apply REV", "status", "drift", "undo", "redo", "resume", "recover")
 """Kinds whose output names the bench that they mean."""
-TIMEOUT = 120.0
-"""The longest time that a command may take [s]."""
 SHORTEST, LONGEST = 8, 30
 """How many commands a sequence has."""
 
@@ -48,21 +45,6 @@ class Options:
     """Whether each command is printed."""
     hints: bool = True
     """Whether a hint that means another bench is a violation."""
-
-
-@dataclass(frozen=True)
-class Answer:
-    """What a command answered; the exit code of one that was killed is negative."""
-
-    code: int
-    out: str
-    err: str
-    seconds: float
-
-    @property
-    def text(self) -> str:
-        """Standard output and standard error."""
-        return self.out + self.err
 
 
 class Trial:
@@ -281,64 +263,3 @@ class Trial:
 def _names(bench: str, text: str) -> bool:
     """Return whether a text names a bench."""
     return (FAR if bench == "remote" else bench) in text
-
-
-class Child:
-    """A command in a process that is forked from this one, which has already imported what commands need."""
-
-    number = 0
-
-    def __init__(
-        self, words: tuple[str, ...], folder: Path, environment: dict[str, str], scratch: Path, typed: str, plant: str
-    ) -> None:
-        Child.number += 1
-        self._out, self._err = (scratch / f"{Child.number}.{name}" for name in ("out", "err"))
-        self._began = time.monotonic()
-        self._code: int | None = None
-        self.process = os.fork()
-        if self.process == 0:
-            try:
-                self._become(words, folder, environment, typed, plant)
-            except BaseException as exc:
-                print(f"{shlex.join(words)}: {exc!r}", file=sys.stderr, flush=True)
-            finally:
-                os._exit(70)
-
-    def _become(
-        self, words: tuple[str, ...], folder: Path, environment: dict[str, str], typed: str, plant: str
-    ) -> None:
-        if typed:
-            ours, stdin = os.openpty()
-            os.write(ours, typed.encode())
-        else:
-            stdin = os.open(os.devnull, os.O_RDONLY)
-        os.dup2(stdin, 0)
-        sys.stdin = open(0, closefd=False)  # noqa: SIM115  # that of a worker of a pool is another file
-        if words[0] != "pico":
-            for path, stream in ((self._out, 1), (self._err, 2)):
-                os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT, 0o600), stream)
-            os.chdir(folder)
-            os.execvpe(words[0], words, environment)
-        from cli.warm import _become
-
-        if plant:
-            PLANTS[plant].plant()
-        _become({"out": str(self._out), "err": str(self._err), "environment": environment, "folder": str(folder),
-                 "words": list(words[1:]), "confined": None})  # fmt: skip
-
-    def ended(self) -> bool:
-        """Return whether the process has ended."""
-        if self._code is None and (ended := os.waitpid(self.process, os.WNOHANG))[0]:
-            self._code = os.waitstatus_to_exitcode(ended[1])
-        return self._code is not None
-
-    def wait(self) -> Answer:
-        """Wait until the process has ended, at most `TIMEOUT`, and return its answer."""
-        while not self.ended():
-            if time.monotonic() - self._began > TIMEOUT:
-                os.kill(self.process, signal.SIGKILL)
-            time.sleep(0.005)
-        texts = [path.read_text(errors="replace") if path.exists() else "" for path in (self._out, self._err)]
-        for path in (self._out, self._err):
-            path.unlink(missing_ok=True)
-        return Answer(self._code or 0, texts[0], texts[1], time.monotonic() - self._began)
