@@ -241,8 +241,8 @@ class Trial:
 
     def _wait_for_run(self, bench: str | None, child: Child) -> None:
         """Wait until a run begins on a bench, or the process has ended."""
-        before = self._runs_begun(bench)
-        while self._runs_begun(bench) == before and not child.ended():
+        before, ends = self._runs_begun(bench), time.monotonic() + TIMEOUT
+        while self._runs_begun(bench) == before and not child.ended() and time.monotonic() < ends:
             time.sleep(0.002)
 
     def _runs_begun(self, bench: str | None) -> int:
