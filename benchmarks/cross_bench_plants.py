@@ -180,9 +180,9 @@ def _greets_hardware(words: bytes) -> Callable[[], None]:
 
 def _bare_hints() -> None:
     """Hints leave out the flags."""
-    from cli.session import Session
+    from cli.terminal import output
 
-    Session.flags = lambda self, place: ()  # type: ignore[method-assign]
+    output.with_flags = lambda text, flags: text
 
 
 def _run_of_any() -> None:

@@ -25,9 +25,9 @@ MAY_NAME_OTHERS = ("undo RUN", "runs show RUN", "log", "diff", "commit", "hint")
 """Kinds that may name runs of other benches: they were given one, or commits hold them."""
 SHOWS_COMMITTED = ("runs", "runs show")
 """Kinds that show the runs of commits, too, of whichever bench these are."""
-MAY_POINT_ELSEWHERE = ("commit", "stop")
-"""Kinds whose hints may mean another bench by their flags, as those of a refusal may: runs stay pending there, or go
-on there."""
+MAY_POINT_ELSEWHERE = ("commit", "stop", "undo", "undo RUN", "redo", "resume", "killed")
+"""Kinds whose hints may name another bench by its flags, as those of a refusal may: its runs stay pending, continue, or
+are later than those of this bench."""
 NAMES_BENCH = ("plan", "plan REV", "apply", "apply REV", "status", "drift", "undo", "redo", "resume", "recover")
 """Kinds whose output names the bench that they mean."""
 SHORTEST, LONGEST = 8, 30
