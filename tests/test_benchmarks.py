@@ -23,6 +23,7 @@ SMALLEST = {
     "carrying": "--components 30 --commits 5 --repeat 1",
     "commits": "--processes 2 --each 1 --kills 2 --capture 30",
     "control_plane": "--crashes 2000 --seeds 300 --only number",
+    "cross_bench": "--only 3 4 --seed 11 --jobs 2",
     "crash_points": "--crashes 300",
     "data": "--commits 20 --objects 3 --size 0.1 --kills 2",
     "disks": "fmt note blame --points 1",
