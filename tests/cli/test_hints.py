@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 from commanding import Pico
-from pico_cli.at_once.complete import SHARED
+from pico_cli.at_once.complete import SHARED, plain
 from pico_cli.at_once.declared import declared
 from pico_cli.commands import files
 from pico_cli.hints import FILES, NOWHERE, flags_of, with_flags, with_flags_in
@@ -72,7 +72,8 @@ def test_every_command_that_a_text_names_exists_with_its_options() -> None:
 def test_every_command_that_depends_on_the_bench_gets_the_flags() -> None:
     for command, where in COMMANDS:
         got = with_flags(f"Go on: `pico {command}`.", FLAGS)
-        first, two = command.split()[0], " ".join(command.split()[:2])
+        names = plain(command.split(), SHARED)
+        first, two = names[0] if names else "", " ".join(names[:2])
         if first in NOWHERE or first not in files() or "--help" in command.split():
             assert got == f"Go on: `pico {command}`.", where
             continue
