@@ -57,6 +57,7 @@ SMALLEST = {
     "network": "--trips 20 --steals 2 --edges 3 --watchers 2 --seconds 1",
     "network_restoration": "--fidelity kinematic --path C3 E1-1",
     "network_teleop": "--frozen 1 --cut 2",
+    "nights": "--nights 1 --quiet 0 --lab shel",
     "network_kills": "--faults 1 --sim --longest 1",
     "null_of": "--seeds 1",
     "omissions": "--cases 30",
