@@ -15,8 +15,8 @@ An answer is wrong if a cause is neither named nor in a group of parts that the 
 anything else is reported as a cause, if a reading that truly changed by 6 sigma is not listed, or if a reference was
 rewritten. It is useless if the groups hold more than 4 parts at the median, or if more than 30 % of the causes are
 only in a group; parts count there only if the simulator, with the sizes of its causes fitted, finds a reading that
-tells them apart (`nights_alike.py`). The exit code is 3 for both, and 1 for a morning that fails. `--plant` puts a
-fault into the morning of the overnight case and exits with 1 unless that fault is reported.
+tells them apart (`nights_alike.py`). The exit code is 3 for both, and 1 for a morning that fails or rewrites a
+reference. `--plant` puts a fault into the morning of the overnight case and exits with 1 unless that fault is reported.
 """
 
 from __future__ import annotations
@@ -212,7 +212,7 @@ def main() -> int:
     for sort, text in worse:
         print(f"{sort.upper()}: {text}")
     print(f"drawing and judging took {time.process_time() - began:.0f} s CPU")
-    if any(sort == "failed" for j in found for sort, _ in j.wrong):
+    if any(sort in ("failed", "reference") for j in found for sort, _ in j.wrong):
         return 1
     return MISSED if worse or any(j.wrong for j in found) else 0
 

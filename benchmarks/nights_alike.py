@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from nights_causes import KINDS, Happening, Night, happen, unsure
@@ -119,18 +120,22 @@ def _apart(made: Mapping[str, float], now: Mapping[str, Reading], without: Mappi
 def _fits(
     bench: Evening, rest: Sequence[Happening], now: Mapping[str, Reading], sure: Mapping[str, float], start: Happening
 ) -> bool:  # fmt: skip
-    """Return whether a cause in some size beside the others makes the readings what they are."""
+    """Return whether a cause makes the readings what they are, in some size, with the hidden ones of the others in
+    whatever sizes go with it."""
     import numpy as np
 
     from pico.diagnostics import PicoError
 
-    names = [k for k, v in start.by.items() if not isinstance(v, str)]
-    inside = [n for n in names if n in _INSIDE]
+    every = [start, *(c for c in rest if not c.seen)]
+    fixed = [c for c in rest if c.seen]
+    free = [(n, k) for n, c in enumerate(every) for k, v in c.by.items() if not isinstance(v, str)]
 
     def at(size: Any) -> dict[str, Reading]:
-        by = {n: _OUTSIDE[n](float(v)) if n in inside else float(v) for n, v in zip(names, size, strict=True)}
-        one = Happening(start.kind, start.part, start.command, by)
-        return bench.readings(happen(bench, bench.world, [*rest, one]))
+        by = [dict(c.by) for c in every]
+        for (n, k), v in zip(free, size, strict=True):
+            by[n][k] = _OUTSIDE[k](float(v)) if k in _OUTSIDE else float(v)
+        causes = [replace(c, by=b) for c, b in zip(every, by, strict=True)]
+        return bench.readings(happen(bench, bench.world, [*fixed, *causes]))
 
     def left(size: Any) -> Any:
         there = at(size)
@@ -142,8 +147,10 @@ def _fits(
         return all(abs(change.get(key, math.inf)) < CLOSE for key in now)
 
     try:
-        size = np.array([_INSIDE[n](float(start.by[n])) if n in inside else float(start.by[n]) for n in names])
-        units, missing, damping = np.full(len(size), max(0.02 * float(np.abs(size).max()), 1e-5)), left(size), 1e-3
+        given = [float(every[n].by[k]) for n, k in free]
+        size = np.array([_INSIDE[k](v) if k in _INSIDE else v for (_, k), v in zip(free, given, strict=True)])
+        own = [max(abs(size[m]) for m, (other, _) in enumerate(free) if other == n) for n, _ in free]
+        units, missing, damping = np.array([max(0.02 * v, 1e-5) for v in own]), left(size), 1e-3
         for _ in range(8):
             if near(size):
                 return True

@@ -133,8 +133,9 @@ def _matched(hidden: Sequence[Happening], groups: Sequence[Group]) -> list[tuple
     """Return each hidden cause with a group of its own that has its part, as many as can be, the likeliest first."""
     best: list[tuple[Happening, Group]] = []
 
-    def score(pairs: Sequence[tuple[Happening, Group]]) -> tuple[int, int]:
-        return len(pairs), sum(g.part == c.part for c, g in pairs)
+    def score(pairs: Sequence[tuple[Happening, Group]]) -> tuple[int, int, int]:
+        kinds = sum(any((c.part, name) in g.kinds for name in KINDS[c.kind].names) for c, g in pairs)
+        return len(pairs), sum(g.part == c.part for c, g in pairs), kinds
 
     def go(n: int, pairs: list[tuple[Happening, Group]]) -> None:
         nonlocal best

@@ -184,6 +184,9 @@ class Evening:
         for one, value in at.items():
             part, _, tunable = one.partition(".")
             world = world.with_value(part, tunable, ObservedValue(value=value))
+        if measurable == "dark":  # a morning shuts every laser for that
+            for name in (n for n in world.components if "shutter" in self.setup.type_of(n).tunables):
+                world = world.with_value(name, "shutter", ObservedValue(value="closed"))
         table = Table(self.setup, self.place, world)
         if "pixel_size" in self.setup.type_of(component).parameters and measurable != "dark":
             return {key: spot} if (spot := _spot(table, component, number)) else {}
