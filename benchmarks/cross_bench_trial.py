@@ -115,6 +115,7 @@ class Trial:
     ) -> Iterator[str]:  # fmt: skip
         """Yield the violations of a command."""
         meant, kind = command.meant, command.kind
+        self.model.hints.clear()  # of the command before this one: `bench use` gives them another meaning
         if answer.seconds > TIMEOUT:
             yield f"`{kind}` did not end within {TIMEOUT:g} s"
         if failure := re.search(r"error\[internal\].*|Traceback \(most recent call last\)", answer.text):
@@ -174,7 +175,6 @@ class Trial:
 
     def check_hints(self, command: Command, answer: Answer) -> Iterator[str]:
         """Record the hints of an answer, and yield those that mean another bench."""
-        self.model.hints.clear()
         if command.kind == "hint":
             return
         for hint in sorted(set(HINT.findall(re.sub(r"\s*\n\s*", " ", answer.text)))):

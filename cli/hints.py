@@ -13,7 +13,8 @@ from .commands import files
 NOWHERE = frozenset({"completion", "help", "init", "login", "serve", "token"})
 """Commands that ask neither a bench nor the folder of a lab."""
 FILES = frozenset({
-    "bench use", "catalog", "check", "data", "doctor", "fmt", "git", "pull", "push", "remote", "test", "validate",
+    "bench use", "catalog list", "catalog new", "catalog page", "catalog show", "check", "data", "doctor", "fmt",
+    "git branch", "git install", "git tag", "git uninstall", "pull", "push", "remote", "test",
 })  # fmt: skip
 """Commands that read a lab's folder, whichever bench is meant."""
 OPTIONS = {"folder": "-C", "backend": "--backend", "emulate": "--emulate", "at": "--bench"}

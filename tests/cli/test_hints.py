@@ -89,6 +89,17 @@ def test_the_tables_name_commands_that_there_are() -> None:
     assert all(two.split()[1] in declared(files()[two.split()[0]]) for two in FILES if " " in two)
 
 
+def test_no_command_that_asks_the_bench_counts_as_one_that_reads_files() -> None:
+    """A command whose own function asks for the bench that is meant needs the flags in a hint."""
+    for name, path in files().items():
+        for function in ast.parse(Path(path).read_text()).body:
+            if isinstance(function, ast.FunctionDef) and {
+                node.attr for node in ast.walk(function) if isinstance(node, ast.Attribute)
+            } & {"bench", "here"}:
+                assert f"{name} {function.name.rstrip('_')}" not in FILES, name
+                assert name not in FILES or function.name.startswith("_"), name
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
