@@ -25,8 +25,10 @@ from pico.runs.memory import Memory
 
 Tunables = Collection[tuple[str, str]]
 """Tunables by component and name; `pose` for where it stands."""
-DELIBERATE = ("single", "recipe", "optimizer", "teleoperation")
+DELIBERATE = ("single", "recipe", "optimizer", "teleoperation", "recording")
 """Causes of runs that lead to no state of a manifest: what they leave on the bench is there to be captured."""
+_BACK = ("undo", "redo")
+"""Causes of runs that take another one back."""
 
 
 def stands(setup: Setup, seen: Observation, state: LabState) -> bool:
@@ -111,9 +113,17 @@ def _last_said(
 ) -> dict[tuple[str, str], bool]:
     """Return of tunables on which operations succeeded whether the last one is no reason to doubt a state."""
     found: dict[tuple[str, str], bool] = {}
+    taken_back = set[tuple[str, tuple[str, str]]]()
     for success in memory.successes({component for component, _ in tunables}):
+        told = [about.get("cause", {}) for about in memory.about(success.run)[0]]
+        undone = {str(cause.get("of")) for cause in told if cause.get("kind") in _BACK}
         for one in _changed(success.operation) & (set(tunables) - found.keys()):
-            causes = {about.get("cause", {}).get("kind") for about in memory.about(success.run)[0]}
+            if (success.run, one) in taken_back:
+                continue
+            if undone:  # neither of the two counts: the tunable is as before the run that was taken back
+                taken_back |= {(run, one) for run in undone}
+                continue
+            causes = {cause.get("kind") for cause in told}
             before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
             found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success)
     return found

@@ -9,6 +9,8 @@ from pathlib import Path
 import pytest
 from commanding import Pico, edit
 
+from pico import open as open_bench
+
 TABLE = Path("state/table.yaml")
 P2 = "      x: 520\n"
 
@@ -58,6 +60,28 @@ def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pic
     assert "error[unapplied]" in pico("commit", "-m", "x").err
     assert pico("apply", "--auto-approve").code == 0
     assert pico("commit", "-m", "e2 as it is").code == 0
+
+
+def test_what_an_undo_or_a_script_left_is_committed(
+    built: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("GIT_COMMITTER_DATE", "2026-01-05T12:00:00Z")  # all that follows is later by whole seconds
+    for angle in ("5", "6", "7"):
+        assert pico("set", "p1", f"angle={angle}", "-y").code == 0
+        assert angle != "5" or pico("commit", "-m", "five").code == 0
+    assert pico("undo", "-y").code == 0
+    assert pico("commit", "-m", "six").code == 0 and "angle: 6" in TABLE.read_text()
+    assert pico("set", "p1", "angle=8", "-y").code == pico("commit", "-m", "eight").code == 0
+    with open_bench(built) as bench, bench.record("turn"):
+        bench["p1"].angle = 11
+    assert pico("commit", "-m", "by a script").code == 0 and "angle: 11" in TABLE.read_text()
+
+
+def test_an_undo_of_what_was_asked_for_does_not_hide_a_commit_that_was_never_applied(built: Path, pico: Pico) -> None:
+    assert pico("apply", "e1", "--auto-approve").code == 0
+    git("checkout", "-q", "e2")
+    assert pico("undo", "--auto-approve").code == 0
+    assert "error[unapplied]" in pico("commit", "-m", "x").err
 
 
 def test_what_a_hand_does_again_and_again_is_captured_each_time(built: Path, pico: Pico) -> None:
