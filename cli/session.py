@@ -58,6 +58,8 @@ class Session:
     said: Mapping[str, Any] = field(default_factory=dict, compare=False)
     """The options that say which bench is meant, as far as they were given; see `hints.OPTIONS`."""
     told: list[Diagnostic] = field(default_factory=list, compare=False)
+    headline: list[str] = field(default_factory=list, compare=False)
+    """On which bench this command is, until that was said."""
     intended: list[str] = field(default_factory=list, compare=False)
     """The command that is to be approved, in words."""
 
@@ -123,10 +125,17 @@ class Session:
                 bench.wait_until_free(self.lock_timeout)
         return bench
 
+    def name_bench(self) -> None:
+        """Say on which bench this command is, unless that was said, or a plan says it at its head."""
+        if self.headline:
+            write(sys.stderr, paint("dim", self.headline.pop()))
+
     def _head(self, lab: str, place: Place) -> None:
-        """Say on which bench a command is, unless that is the simulator of this lab."""
-        if place.name != SIMULATOR and not self.json:
-            write(sys.stderr, paint("dim", f"{lab} · {place.said}"))
+        """Have the bench named before the first answer; at the end at last if it is not the simulator of this lab."""
+        if not self.json:
+            self.headline[:] = [f"{lab} · {place.said}"]
+            if place.name != SIMULATOR and self.context is not None:
+                self.context.call_on_close(self.name_bench)
 
     def history(self) -> LabHistory:
         """Open the history of this session's lab, also while its manifests are wrong; raises PicoError."""
@@ -153,8 +162,10 @@ class Session:
         """Print an answer, for people or as one JSON document."""
         if self.json:
             self.document(view.data(*args, **options))
-        else:
-            self.say(view.text(*args, **options))
+            return
+        if getattr(view, "NAMES_BENCH", False):
+            self.headline.clear()
+        self.say(view.text(*args, **options))
 
     def draw(self, shown: Path | None, what: str, draw: Callable[[Path], object]) -> None:
         """Have a picture of `what` drawn where somebody asked for one, and say where it is."""
@@ -172,6 +183,7 @@ class Session:
 
     def say(self, text: str) -> bool:
         """Print text for people; nothing with `--json`. Return whether somebody may still read."""
+        self.name_bench()
         return self.json or write(sys.stdout, text)
 
     def report(self, diagnostics: Sequence[Diagnostic]) -> None:

@@ -102,7 +102,7 @@ def main() -> None:
         say(f"They were moved by {sight(folder)}.")
         if far > LIMIT_MM or turned > LIMIT_DEG:
             sys.exit(f"The demonstration failed: that is more than {LIMIT_MM} mm or {LIMIT_DEG} deg.")
-    say(f"\nDone in {time.monotonic() - started:.0f} s. The bench is in {options.folder}/, its pictures beside it:")
+    say(f"\nDone in {time.monotonic() - started:.0f} s. The bench and its pictures are in {options.folder}/:")
     for picture in sorted(folder.glob("*.png")):
         say(f"  {options.folder / picture.name}")
 

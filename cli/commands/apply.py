@@ -95,5 +95,6 @@ def apply(
     code = approve(session, bench, plan, auto_approve, record, detach=detach, stop_on_error=stop_on_error)
     if not code and bench.plans.leaves_manifest(plan):
         where = plan.target.revision
-        session.say(f"The manifest is another: `pico apply` goes back to it, `pico checkout {where}` brings it along.")
+        back = "`pico apply` returns the bench to it"
+        session.say(f"The manifest still describes another state: {back}, `pico checkout {where}` switches the files.")
     return code

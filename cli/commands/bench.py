@@ -17,19 +17,22 @@ from ..views import proposal as view
 
 app = group(
     help="Which bench commands mean, and its own Lab, which plans go by.",
-    examples=("pico bench list", "pico bench use emulated", "pico bench update --dry-run"),
+    examples=("pico bench", "pico bench use emulated", "pico bench update --dry-run"),
+    alone=True,
 )
 
 Detailed = Annotated[bool, typer.Option("--dry-run", help="Show what differs, and adopt nothing.")]
 
 
 @app.callback()
-def _group() -> None: ...
+def main(context: typer.Context) -> None:
+    if context.invoked_subcommand is None:
+        list_(context)
 
 
 @app.command("list")
 def list_(context: typer.Context) -> None:
-    """List the benches of this machine and of the coordinators that this checkout knows, and who has them.
+    """List the benches of this machine and of known coordinators, and who has them; `pico bench` alone does the same.
 
     Examples:
       pico bench list

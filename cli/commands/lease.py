@@ -122,7 +122,7 @@ def _holding(session: Session) -> Holding:
 
     far = session.place(find_lab(session.folder))
     if not isinstance(far, Far):
-        text = f"the bench `{far.name}` of this machine is granted by nobody else: there is no lease to ask for"
+        text = f"the bench `{far.name}` is on this machine: it needs no lease"
         hint = "`--bench LAB/BENCH` means one on the network; `pico remote list` shows where"
         raise PicoError(error("local", text, hint=hint))
     return Holding(far)

@@ -17,6 +17,8 @@ from ..views import optimizing_ahead as ahead_view
 from ..views import placed as placed_view
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from pico.bench.bench import Bench
     from pico.bench.goals import Chosen
     from pico.bench.placing import Try
@@ -120,6 +122,7 @@ def _optimize(
         return 0
     if code := declined(session, bench, plan, auto_approve):
         return int(code)
+    session.name_bench()
     terminal = sys.stdout.isatty() and not session.json
 
     def heard(event: Event) -> None:
@@ -132,7 +135,10 @@ def _optimize(
     if terminal:
         write(sys.stdout, "", end="", over=True)
     dark = bench.measurements.dark() if found.measurements and not found.last else ""
-    session.show(view, found, chosen, bench.setup, report, advice=dark)
+    began: Mapping[str, float] = next(
+        (op.arguments["from"] for op in plan.operations if op.primitive == "optimize"), {}
+    )
+    session.show(view, found, chosen, bench.setup, report, advice=dark, began=began)
     session.tell(report.diagnostics)
     if found.points:
         session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, chosen.goal, path))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import typer
 
 from ..arguments import Fidelity, LockTimeout, OfPerson, RunBack, Speed, Yes
-from ..runs.approving import approve, called
+from ..runs.approving import approve, going_back
 from ..session import Session
 
 
@@ -23,9 +23,5 @@ def redo(
       pico redo 8cd36b
     """
     session = Session.of(context)
-    bench = session.bench(fidelity, speed, writing=True)
-    if auto_approve and run is None:
-        bench.recovery.require_named("redo", of)
-    session.tell(bench.recovery.killed_early())
-    called(session, bench, "redo", auto_approve)
+    bench = going_back(session, "redo", auto_approve, fidelity, speed, run=run, of=of)
     return approve(session, bench, bench.recovery.redo_plan(run, of=of), auto_approve)

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from ..arguments import Fidelity, LockTimeout, Speed, StopOnError, Yes
-from ..runs.approving import approve, called
+from ..runs.approving import approve, going_back
 from ..session import Session
 
 
@@ -32,10 +32,6 @@ def resume(
       pico resume --stop-on-error
     """
     session = Session.of(context)
-    bench = session.bench(fidelity, speed, writing=True)
-    if auto_approve and run is None:
-        bench.recovery.require_named("resume")
-    session.tell(bench.recovery.killed_early())
-    called(session, bench, "resume", auto_approve)
+    bench = going_back(session, "resume", auto_approve, fidelity, speed, run=run)
     plan, last = bench.recovery.resume_plan(run)
     return approve(session, bench, plan, auto_approve, resumes=last, stop_on_error=stop_on_error)

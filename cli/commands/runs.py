@@ -68,8 +68,8 @@ def list_(
     session = Session.of(context)
     wrong: list[Diagnostic] = []
     history = _history(session)
-    found = history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong)[:number]
-    session.show(table, found, wrong, history.runs_of_others(wrong) if others else None)
+    found = history.runs(revision, every=every, components=scope_of(context), diagnostics=wrong)
+    session.show(table, found, wrong, history.runs_of_others(wrong) if others else None, most=number)
     session.tell(wrong)
 
 

@@ -52,6 +52,23 @@ def approve(
     return execute(session, bench, plan, record, **options)
 
 
+def going_back(
+    session: Session, command: str, auto_approve: bool, fidelity: str | None, speed: float | None, *,
+    run: str | None, of: str | None = None,
+) -> Bench:  # fmt: skip
+    """Open the bench for a command that goes on from an earlier run, or back to before one.
+
+    Says what was killed before it moved anything. Raises PicoError if that leaves open which run is meant, and nobody
+    is asked. `run`: the one that was named; `of`: whose it is.
+    """
+    bench = session.bench(fidelity, speed, writing=True)
+    if auto_approve and run is None:
+        bench.recovery.require_named(command, of)
+    session.tell(bench.recovery.killed_early())
+    called(session, bench, command, auto_approve)
+    return bench
+
+
 def called(session: Session, bench: Bench, command: str, approved: bool) -> None:
     """Keep what somebody called and approved, until the command ends; not yet, where they are still to be asked."""
     session.intended[:] = [command]

@@ -156,7 +156,7 @@ def _found(entry: CommitEntry) -> list[str]:
     c = entry.commit
     name = c.short + (f" ({', '.join(c.refs)})" if c.refs else "")
     head = f'{paint("bold", name)} is the first bad commit: "{c.summary}", {c.author}, {c.time:%Y-%m-%d %H:%M}'
-    changed = [f"  {entry.unreadable}"] if entry.unreadable else lines(entry.changes) or ["  nothing on the table"]
+    changed = [f"  {entry.unreadable}"] if entry.unreadable else lines(entry.changes) or ["  no change on the table"]
     return [*wrap(head, ""), *changed]
 
 

@@ -23,7 +23,7 @@ def text(made: Committed) -> str:
             block.append(f"{count(len(made.captured) - found, 'tunable')} taken from the bench.")
         block += aligned(made.captured, made.aligned)
     if not made.realized:
-        block.append("Nobody compared this state with the bench, and the commit says so: `pico verify` does.")
+        block.append("Committed as planned: not compared with the bench yet, `pico verify` does that.")
     elif made.runs:
         block.append(f"With {count(len(made.runs), 'run')} ({on_bench(made.evidence, made.bench)}).")
     if not made.branch:

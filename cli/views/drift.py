@@ -98,14 +98,14 @@ def _entry(one: Drift) -> list[str]:
 
 
 def about(one: Drift) -> str:
-    """Return `tolerance 0.5 mm, 0.5°; seen to 0.02 mm, 2 s ago; moved by hand: no operation did it`."""
+    """Return `tolerance 0.5 mm, 0.5°; seen to 0.02 mm 2 s ago; moved by hand; last placed by run R, TIME`."""
     words = [] if one.tolerance == "none" else [f"tolerance {one.tolerance}"]
     seen = one.uncertainty
     sure = f" to {seen.position:.2g} mm, {seen.yaw:.2g}°" if seen and (seen.position or seen.yaw) else ""
     if sure or one.age >= 1:
         words.append(f"seen{sure}" + (f" {one.age:.0f} s ago" if one.age >= 1 else ""))
-    said = {"operation": "by an operation", "person": "by hand", "unknown": "by whom is not known"}
-    return "; ".join([*words, said[one.by] + (f": {one.how}" if one.how else "")])
+    said = {"operation": "by an operation: ", "person": "moved by hand; ", "unknown": "cause unknown; "}
+    return "; ".join([*words, (said[one.by] + one.how).rstrip(":; ")])
 
 
 def data(found: Drifted, bench: str) -> dict[str, Any]:

@@ -106,7 +106,7 @@ def _what(entry: CommitEntry) -> str:
     if entry.unreadable:
         return f"can't be read: {entry.unreadable}"
     if not entry.changes:
-        return "nothing on the table"
+        return "no change on the table"
     if entry.first:
         moved = sum(c.tunable == "pose" for c in entry.changes)
         values = len(entry.changes) - moved

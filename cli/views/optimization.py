@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -15,8 +17,12 @@ if TYPE_CHECKING:
     from pico.model.trace.report import RunReport
 
 
-def text(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "") -> str:
-    """Return the outcome in a line, a table of before and after, and how to go back; `advice`: what to do about it."""
+def text(
+    found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "",
+    began: Mapping[str, float] = MappingProxyType({}),
+) -> str:  # fmt: skip
+    """Return the outcome in a line, a table of before and after, and how to go back; `advice`: what to do about it;
+    `began`: where its tunables stood before."""
     spent = f"{count(found.measurements, 'measurement')}, {seconds(found.seconds)} on the bench"
     said = paint("green", "met") if found.met else paint("yellow", "not met")
     lines = wrap(f"{chosen.name}: {said} in {spent} ({chosen.algorithm}: {chosen.why})", "  ")
@@ -25,7 +31,7 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, a
         lines += wrap(f"{one['goal']} first: {stood} after {count(one['measurements'], 'measurement')}", "  ")
     if not found.met:
         lines += wrap(f"It ended because {found.why}.", "  ")
-    lines += _table(found, chosen, setup)
+    lines += _table(found, chosen, setup, began)
     if said := solved({"solution": found.solution, "last": found.last}):
         lines += wrap(f"It was left at {said}.", "  ")
     back = "; `pico undo` goes back" if found.measurements else ""
@@ -33,9 +39,9 @@ def text(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, a
     return "\n".join([*lines, f"  `pico runs show {report.run}`{back}"])
 
 
-def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
+def _table(found: Optimized, chosen: Chosen, setup: Setup, began: Mapping[str, float]) -> list[str]:
     rows = [[paint("dim", cell) for cell in ("", "before", "after", "")]]
-    first, last = found.first or {}, found.last or {}
+    first, last = {**began, **(found.first or {})}, found.last or {}
     for name in chosen.goal.tunables:
         component, _, tunable = name.partition(".")
         unit = setup.type_of(component).tunables[tunable].unit
@@ -51,7 +57,7 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup) -> list[str]:
     return [f"  {row}" for row in columns(rows)]
 
 
-def data(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "") -> dict[str, Any]:
+def data(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, **_: Any) -> dict[str, Any]:
     """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
     `last`, `points` (an array in the content store, its `columns`), `run`; `stages`: the same of the goals that were
     sought first, `measurements` counted from the first on; `diagnostics`: what else came up."""

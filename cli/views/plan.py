@@ -27,6 +27,10 @@ BAR = 60
 """Columns for the time of a plan, where several arms are drawn in it."""
 
 
+NAMES_BENCH = True
+"""The first line says on which bench the plan is."""
+
+
 def text(
     plan: Plan,
     *,
@@ -67,7 +71,7 @@ def header(plan: Plan, head: str = "", goal: str = "", single: bool = False, *, 
     if single:
         return " · ".join([*parts, "one operation"])
     target = goal or plan.target.name
-    parts.append(f"HEAD {head} → {target}" if head else f"→ {target}")
+    parts.append(f"HEAD {head} → {target}" if head else target)
     parts += [plan.target.scope] if plan.target.scope else []
     parts += [f"seen {ago(plan.base.observed_at, now)}"] if plan.base.observed_at else []
     return " · ".join(parts)
@@ -306,7 +310,7 @@ def _as_wanted(plan: Plan) -> str:
 def _as_asked(beside: Sequence[Change] | None) -> str:
     if beside:
         found = f"Nothing to do: the bench is as asked already. The manifest is not ({brief(beside)})"
-        return f"{found}: `pico capture` takes the bench into it."
+        return f"{found}: `pico capture` updates the manifest."
     return f"Nothing to do: {'it is' if beside is None else 'bench and manifest are'} as asked already."
 
 

@@ -13,7 +13,7 @@ from .by_light import excepted, stays, unfound
 from .diff import brief
 from .style import count, listed, paint, seconds, wrap
 
-_CAPTURE = "The manifest is as it was: `pico capture` takes the bench into it."
+_CAPTURE = "The manifest still holds the old value; `pico capture` updates it."
 
 
 def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
@@ -86,8 +86,8 @@ def _bench(report: RunReport, undoing: bool) -> list[str]:
         if report.scope:
             return [_partial(report)]
         if report.measurements or report.read:
-            return [f"As asked: `pico runs show {report.run}` has it."]
-        said = f"As asked. {stays(report.by_light or ()) or _CAPTURE}"
+            return [f"`pico runs show {report.run}` shows what was measured."]
+        said = stays(report.by_light or ()) or _CAPTURE
         return [said, *(_in_hand(robot, part) for robot, part in report.held.items())]
     lines = []
     if report.remaining:

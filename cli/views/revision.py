@@ -29,7 +29,7 @@ def text(found: Shown) -> str:
 
 
 def _nothing(component: str | None) -> str:
-    return f"nothing of {component}" if component else "nothing on the table"
+    return f"nothing of {component}" if component else "no change on the table"
 
 
 def _rows(found: Shown) -> list[list[str]]:

@@ -18,10 +18,15 @@ COLORS = {"done": "green", "failed": "red", "interrupted": "yellow", "killed": "
 
 
 def text(
-    found: Sequence[tuple[Run, Commit | None]], _: Sequence[Diagnostic] = (), others: Sequence[Run] | None = None
-) -> str:  # fmt: skip
-    """Return a line a run: id, what led where, evidence, outcome, seconds, commit; then those of others."""
-    own = _own(found)
+    found: Sequence[tuple[Run, Commit | None]],
+    _: Sequence[Diagnostic] = (),
+    others: Sequence[Run] | None = None,
+    *,
+    most: int | None = None,
+) -> str:
+    """Return a line a run, of the first `most`: id, what led where, evidence, outcome, seconds, commit; then those of
+    others."""
+    own = _own(found, most)
     if others is None:
         return own
     rows = [[*_row(run, None)[:-1], shown(run.operator)] for run in others]
@@ -29,13 +34,13 @@ def text(
     return "\n".join([own, "", said, *columns(rows)] if rows else [own, "", said])
 
 
-def _own(found: Sequence[tuple[Run, Commit | None]]) -> str:
+def _own(found: Sequence[tuple[Run, Commit | None]], most: int | None) -> str:
     if not found:
         return "No run here has moved anything; `pico runs list --all` looks at every branch and tag."
     head = [
         paint("dim", cell) for cell in ("run", "when (UTC)", "what", "bench", "evidence", "outcome", "took", "commit")
     ]
-    rows = [_row(run, commit) for run, commit in found]
+    rows = [_row(run, commit) for run, commit in found[:most]]
     own = sum(commit is None and run.cause.kind not in TRIALS for run, commit in found)
     last = [f"{count(own, 'run')} that no commit has yet: `pico commit` takes {'it' if own == 1 else 'them'}."]
     return "\n".join([*columns([head, *rows]), *(["", *last] if own else [])])
@@ -81,10 +86,14 @@ def shown(value: str) -> str:
 
 
 def data(
-    found: Sequence[tuple[Run, Commit | None]], wrong: Sequence[Diagnostic] = (), others: Sequence[Run] | None = None
-) -> dict[str, Any]:  # fmt: skip
+    found: Sequence[tuple[Run, Commit | None]],
+    wrong: Sequence[Diagnostic] = (),
+    others: Sequence[Run] | None = None,
+    *,
+    most: int | None = None,
+) -> dict[str, Any]:
     """Return schema `pico.runs/v1`: `runs`, each `document` with its `commit` (absent where none has it yet),
     `others` (each `document` of a run that somebody else began at the bench), and `diagnostics`."""
-    runs = [{"document": as_json(run), **({"commit": commit.id} if commit else {})} for run, commit in found]
+    runs = [{"document": as_json(run), **({"commit": commit.id} if commit else {})} for run, commit in found[:most]]
     foreign = [{"document": as_json(run)} for run in others or ()]
     return {"schema": "pico.runs/v1", "runs": runs, "others": foreign, "diagnostics": as_json(list(wrong))}

@@ -19,7 +19,7 @@ def text(action: str, shelves: Sequence[Shelf], *, apart: tuple[int, int] | None
     if not shelves:
         return "Nothing to shelve: the manifests are as in the last commit."
     (shelf,) = shelves
-    changes = lines(shelf.changes) or ["  nothing on the table"]
+    changes = lines(shelf.changes) or ["  no change on the table"]
     if action == "drop":
         keep = f"git stash store -m 'again' {shelf.commit}"
         return "\n".join([f"Dropped: {shelf.message}", *changes, f"Go back with `{keep}`."])

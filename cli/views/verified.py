@@ -36,7 +36,7 @@ def text(found: Verified, *, suspects: Sequence[Suspect] = ()) -> str:
     if found.light:
         commit = found.standing.commit[:7] if found.standing else ""
         said.append(light_back.text(found.light, goal=commit, suspects=suspects))
-    said += expectations(found.expectations) or ["Nothing more is expected: `expect:` in a LabState says what is."]
+    said += expectations(found.expectations) or ["The state defines no expectations (`expect:`)."]
     return "\n".join([*said, *(proof(found.standing, left=found.left) if found.standing else [])])
 
 

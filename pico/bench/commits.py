@@ -254,7 +254,7 @@ def _refuse(folder: LabFolder, seen: Observation, mode: CommitMode, named: Named
     if never:
         names = ", ".join(never[:6]) + (" and others" if len(never) > 6 else "")
         hint = "`pico apply` first; or `--capture`: the bench wins; or `--planned`: the bench is left out"
-        text = f"the bench never stood as the last commit says: {names}"
+        text = f"the last commit was never applied to this bench: {names}"
         if committed is None:  # the first one: there is only the manifest
             text = f"the manifest holds edits that were never applied: {names}"
         raise PicoError(error("unapplied", text, hint=hint))

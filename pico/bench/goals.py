@@ -141,6 +141,8 @@ class Goals:
         if what not in known():
             names = (*self.named, *known())
             hint = did_you_mean(what[:40], names) or f"known: {', '.join(names)}"
+            if what in (self.opened.folder.described.lab.goals or {}):
+                hint = "lab.yaml describes it, and the bench has not adopted that yet: `pico bench update`"
             raise PicoError(error("goal", f"{self.opened.setup.lab.name} has no goal `{what[:40]}`", hint=hint))
         return made_ready(self.opened.setup, self.opened.observe(), words)
 

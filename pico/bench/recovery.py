@@ -145,7 +145,7 @@ class Recovery:
         # what light found matters below the tolerance of its axis, too; a part is put down only so well
         numbers = all(tunable in setup.type_of(component).tunables for component, tunable in done)
         taken = f", with {listed(held)} where it was picked" if held else ""
-        title = f"the bench before {found.run.run}{taken}"
+        title = f"the state before run {found.run.run}{taken}"
         target = Target(title=title, only=only or None, cause=cause, of=found.run.run)
         targets = tuple(sorted(f"{component}.{tunable}" for component, tunable in done)) if numbers else only
         goal = PlanGoal(wanted, target, exact=numbers, targets=targets)
@@ -237,7 +237,7 @@ class Recovery:
         if not other:
             return ()
         text = (
-            f"the last run of this lab was on the bench `{other}`, and this command means `{self.opened.place.title}`"
+            f"the last run of this lab was on the bench `{other}`, and this command acts on `{self.opened.place.title}`"
         )
         return (warning("other-bench", text, hint=f"add `--bench {other}` if that one is meant"),)
 

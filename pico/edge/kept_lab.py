@@ -14,8 +14,8 @@ from pico.places.bench import BenchPlace
 _FIRST = Diagnostic(
     "note",
     "bench-lab",
-    "the bench keeps what the lab's files describe as its own Lab from now on",
-    hint="later edits of them only propose another bench: `pico bench update` adopts it",
+    "the bench keeps its own copy of lab.yaml and of your component types from now on",
+    hint="later edits of them take effect after `pico bench update`",
 )
 
 

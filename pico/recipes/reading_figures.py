@@ -49,7 +49,8 @@ def _figure(reader: Reader, returned: Mapping[str, Name], name: str, node: Map) 
             reader.wrong(node.get(key) or node, "missing-key", f"the {key} axis of {name} has no name", _EXAMPLE)
     series = node.get("series")
     if not isinstance(series, Map) or not series.entries:
-        reader.wrong(series or node, "missing-key", f"the figure {name} has no series", _EXAMPLE)
+        text = f"the figure {name} has no series" if series is None else f"`series` of the figure {name} names no curve"
+        reader.wrong(series or node, "missing-key" if series is None else "type", text, _EXAMPLE)
         entries = {}
     else:
         entries = series.entries

@@ -7,7 +7,7 @@ import tempfile
 import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
@@ -93,8 +93,21 @@ def rehearse(root: str, name: str, fidelity: str) -> Rehearsed:
                     return Rehearsed(name, "skipped", why=_function(wants), seconds=time.monotonic() - began)
                 out = recipes.run(recipe, recipes.begin(recipe, recipes.arguments(recipe, {})))
         except PicoError as exc:
-            return Rehearsed(name, "failed", seconds=time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
-        return Rehearsed.of(name, out, time.monotonic() - began)
+            found = Rehearsed(name, "failed", seconds=time.monotonic() - began, diagnostics=tuple(exc.diagnostics))
+        else:
+            found = Rehearsed.of(name, out, time.monotonic() - began)
+        return replace(
+            found, diagnostics=tuple(_in_lab(d, Path(folder) / "lab", Path(root)) for d in found.diagnostics)
+        )
+
+
+def _in_lab(found: Diagnostic, clone: Path, root: Path) -> Diagnostic:
+    """Return a diagnostic of a clone with the file of the lab that it is about: the clone is gone when it is read."""
+    repository = Repository.discover(root)
+    here = repository.root if repository else root
+    if found.source is None or not Path(found.source.path).is_relative_to(clone):
+        return found
+    return replace(found, source=replace(found.source, path=str(here / Path(found.source.path).relative_to(clone))))
 
 
 def _function(wants: Sequence[str]) -> str:

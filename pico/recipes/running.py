@@ -109,7 +109,7 @@ class _Run:
             self.one.end("interrupted")
 
     def _run(self) -> Outcome:
-        steps = walk(self.recipe, self.log.about.arguments, self._entered)
+        steps = walk(self.recipe, self.log.about.arguments, self._entered, failing=self._failing)
         found: tuple[Diagnostic, ...] = ()
         code = ExitCode.DONE
         try:
@@ -146,6 +146,9 @@ class _Run:
         self.at = entered.path
         self.reached |= bool(entered.path) and entered.path == self.watching.until
         self.watching.entered(entered)
+
+    def _failing(self) -> None:
+        self.failed = self.failed or self.at
 
     def _to_the_end(self, steps: Any) -> dict[str, Any]:
         send: Callable[[], Ask] = lambda: next(steps)  # noqa: E731

@@ -75,9 +75,11 @@ class Entered:
 
 def walk(
     recipe: Recipe, arguments: Mapping[str, Any], enter: Callable[[Entered], None] = lambda _: None, *,
-    ahead: Callable[[Step], None] | None = None,
+    ahead: Callable[[Step], None] | None = None, failing: Callable[[], None] = lambda: None,
 ) -> Walk:  # fmt: skip
     """Walk a recipe with all its parameters given; return what it `returns`.
+
+    `failing`: called if steps failed, before those of `finally`.
 
     `ahead`: nothing is done yet, and what is measured is not known: what depends on it is left out, what that would
     change is not known from there on, such steps are entered as not `known`, and `ahead` hears of each act and scan
@@ -87,7 +89,7 @@ def walk(
     PicoError for an assertion that does not hold (exit code EXPECTATION), for a loop beyond its bound, and for an
     expression without a value.
     """
-    return (yield from _Walker(enter, ahead).recipe(recipe, arguments, "", 0))
+    return (yield from _Walker(enter, ahead, failing).recipe(recipe, arguments, "", 0))
 
 
 @dataclass
@@ -108,8 +110,10 @@ class _Names:
 
 
 class _Walker:
-    def __init__(self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None = None) -> None:
-        self.enter, self.ahead, self.turns = enter, ahead, 0
+    def __init__(
+        self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None, failing: Callable[[], None]
+    ) -> None:
+        self.enter, self.ahead, self.failing, self.turns = enter, ahead, failing, 0
         self.measured: dict[str, float] = {}
         self.looked: dict[str, Any] = {}
         """Names of the bench with their values as the step asked for them that is begun."""
@@ -130,6 +134,7 @@ class _Walker:
         except GeneratorExit:
             raise
         except BaseException as failed:
+            self.failing()
             try:
                 yield from self.block(recipe.finally_, _Names(dict(arguments)), f"{at}finally.", depth)
             except PicoError as again:

@@ -125,7 +125,7 @@ def test_undo_takes_back_what_the_run_moved_and_nothing_else(bench: Bench) -> No
     bench.apply("e1")
     bench.sim.nudge("hwp", dx=3)
     plan = bench.recovery.undo_plan()
-    assert plan.target.name.startswith("the bench before")
+    assert plan.target.name.startswith("the state before run")
     assert bench.apply(plan).outcome == "done"
     seen = bench.observe().components
     assert seen["lx_125"].pose == Pose(290, 310, 0)

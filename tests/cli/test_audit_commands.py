@@ -71,7 +71,7 @@ def test_validate_names_the_parts_of_which_nobody_says_what_light_they_can_take(
     made.write_text("".join(li for li in made.read_text().splitlines(True) if "damage_threshold:" not in li))
     edit(shel / "lab.yaml", "  p1:\n    type: linear_polarizer", "  p1:\n    type: bare")
     told = pico("validate")
-    assert told.code == 0 and "note[damage-threshold]: nobody says how much light p1 can take" in told.err
+    assert told.code == 0 and "note[damage-threshold]: the damage threshold of p1 is unknown" in told.err
 
 
 def red(path: Path, box: tuple[float, float, float, float]) -> int:

@@ -52,7 +52,7 @@ def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pic
         assert pico(*change).code == 0
         assert pico("note", "p1", "x").code == 0
         refused = pico("commit", "-m", "just a note")
-        assert refused.code == 1 and "the bench never stood as the last commit says: " in refused.err
+        assert refused.code == 1 and "the last commit was never applied to this bench: " in refused.err
         assert ("lx_100" if "E2-1" in change else "p2") in refused.err
         assert pico("commit", "-m", "just a note", "--planned").code == 0
         assert "state/table.yaml" not in git("show", "--name-only", "--format=", "HEAD")
@@ -62,9 +62,7 @@ def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pic
     assert pico("commit", "-m", "e2 as it is").code == 0
 
 
-def test_what_an_undo_or_a_script_left_is_committed(
-    built: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_an_undo_or_a_script_left_is_committed(built: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_COMMITTER_DATE", "2026-01-05T12:00:00Z")  # all that follows is later by whole seconds
     for angle in ("5", "6", "7"):
         assert pico("set", "p1", f"angle={angle}", "-y").code == 0
@@ -346,7 +344,7 @@ def test_a_clone_whose_bench_was_never_used_does_not_commit_over_what_another_be
     subprocess.run(["git", "clone", "-q", str(shel), str(tmp_path / "clone")], check=True)
     monkeypatch.chdir(tmp_path / "clone")
     answer = pico("commit", "-m", "over")
-    assert answer.code == 1 and "the bench never stood as the last commit says" in answer.err
+    assert answer.code == 1 and "the last commit was never applied to this bench" in answer.err
     assert pico("apply", "--auto-approve").code == 0
     assert pico("sim", "nudge", "p2", "--dx", "3").code == 0
     assert pico("commit", "-m", "a hand did it").code == 0

@@ -21,7 +21,10 @@ def test_an_old_experiment_comes_back_and_a_nudge_is_found(shel: Path, pico: Pic
 
     applied = pico("apply", "e1", "--auto-approve")
     assert applied.code == 0, applied
-    assert "The bench equals e1.\nThe manifest is another: `pico apply` goes back to it" in applied.out
+    assert (
+        "The bench equals e1.\nThe manifest still describes another state: `pico apply` returns the bench to it"
+        in applied.out
+    )
 
     again = pico("plan", "e1", "--detailed-exitcode")
     assert again.code == 0
@@ -214,7 +217,7 @@ def test_commit_refuses_edits_that_were_never_applied_unless_told_who_wins(shel:
     assert "never applied: p2" in refused.err
     planned = pico("commit", "-m", "move p2", "--planned")
     assert planned.code == 0
-    assert "Nobody compared this state with the bench" in planned.out
+    assert "Committed as planned: not compared with the bench yet" in planned.out
     assert "\nPico-Evidence: planned\n" in pico("show", "--json").data["message"]
 
 

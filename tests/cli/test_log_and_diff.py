@@ -69,7 +69,7 @@ def test_a_part_is_followed_from_file_to_file_and_after_it_is_gone(shel: Path, p
     )
     commit("p2 in a file of its own")
     moved = pico("log", "-1").out
-    assert "nothing on the table" in moved
+    assert "no change on the table" in moved
     commit("further", ("x: 520", "x: 530"), path="state/more.yaml")
     assert pico("log", "--oneline", "--", "p2").out.splitlines()[0].endswith("p2 moved 10 mm (dx +10)")
     assert "further" in pico("log", "--", "state/more.yaml").out

@@ -107,4 +107,4 @@ def test_before_the_first_commit_nothing_is_called_committed(
     assert pico("apply", "--auto-approve").code == 0
     told = pico("status").out
     assert "nothing is committed yet" in told and "committed (" not in told
-    assert "· → the manifest ·" in pico("plan").out
+    assert " · the manifest ·" in pico("plan").out

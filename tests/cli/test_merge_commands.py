@@ -25,7 +25,7 @@ def test_a_merge_is_made_and_shown(shel: Path, pico: Pico) -> None:
     commit("left", ("x: 290", "x: 300"))
     commit("right", ("x: 520", "x: 530"))
     made = pico("merge", "left", "-m", "both moved")
-    assert made.code == 0 and not made.err
+    assert made.code == 0 and made.err == "shel · sim\n"
     assert made.out.startswith("Merged left (") and "p1  moved 10 mm" in made.out
     assert git("show", "-s", "--format=%s").strip() == "both moved"
     assert pico("merge", "left", "--json").data["kind"] == "up-to-date"

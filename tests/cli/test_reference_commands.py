@@ -82,7 +82,7 @@ def test_two_mirrors_are_found_committed_and_found_again(irises: Path, pico: Pic
     assert "`pico optimize through far near` finds them" in told.err
     status = pico("status").out
     assert max(map(len, status.splitlines())) <= 100 and status.count("never measured") == 1
-    assert "Nobody compared this state with the bench" in pico("commit", "-m", "not yet").out
+    assert "Committed as planned: not compared with the bench yet" in pico("commit", "-m", "not yet").out
     done = pico("apply", "--align", "-y")
     assert done.code == 0 and "1 of 1 goal" in done.out and stands(pico)[0] == "aligned"
     assert pico("verify").code == 0 and pico("drift").code == 0

@@ -62,7 +62,7 @@ def test_a_lens_is_placed_after_another_component(shel: Path, pico: Pico) -> Non
 def test_the_manifest_stays_and_capture_takes_it_over(shel: Path, pico: Pico) -> None:
     pico("apply", "--auto-approve")
     answer = pico("set", "p1", "angle=3", "-y")
-    assert "`pico capture` takes the bench into it" in answer.out
+    assert "`pico capture` updates it" in answer.out
     assert pico("plan", "--detailed-exitcode").code == 2
     pico("capture")
     assert pico("plan", "--detailed-exitcode").code == 0

@@ -155,7 +155,7 @@ def test_what_was_set_down_after_a_kill_is_undone_to_where_it_was_before_the_run
     assert pico("recover", "--auto-approve").code == 0
     assert pico("sim", "nudge", "lx_125", "--dx", "-4", "--dyaw", "-45").code == 0  # as if it had been set down so
     answer = pico("undo", "--auto-approve")
-    assert answer.code == 0 and "The bench equals the bench before" in answer.out
+    assert answer.code == 0 and "The bench equals the state before run" in answer.out
     assert {n: p.pose for n, p in Bench.open(shel).observe().components.items()} == before
 
 

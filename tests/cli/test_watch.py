@@ -37,13 +37,13 @@ def test_drift_says_who_did_it(applied: Path, pico: Pico) -> None:
     pico("set", "p1", "angle=60", "-y")
     found = {f"{c['component']}.{c['tunable']}": c for c in pico("drift", "--json").data["changes"]}
     assert found["p2.pose"]["by"] == "person"
-    assert "left it elsewhere" in found["p2.pose"]["how"]
+    assert "last placed by run" in found["p2.pose"]["how"]
     assert found["p2.pose"]["tolerance"] == "0.5 mm, 0.5°"
     assert found["p1.angle"]["by"] == "operation"
     assert found["p1.angle"]["how"].startswith("run 2")
     said = pico("drift", "--detailed-exitcode")
     assert said.code == 2
-    assert "by hand: no operation did it" in said.out
+    assert "moved by hand; last placed by run" in said.out
 
 
 def test_drift_says_what_only_a_person_can_bring_back(applied: Path, pico: Pico) -> None:

@@ -101,7 +101,7 @@ def test_from_a_code_to_the_bench_that_commands_mean(coordinator: Served, lab: P
     assert "a token is kept" in pico("remote", "list").out
     assert pico("--json", "bench", "list").data["meant"] == f"lab/{BENCH}"
     assert "now mean sim" in pico("bench", "use", "local").out
-    assert "no lease to ask for" in pico("lease", "show").err
+    assert "the bench `sim` is on this machine: it needs no lease" in pico("lease", "show").err
 
 
 def test_who_has_the_bench_is_shown_and_only_they_give_it_back(

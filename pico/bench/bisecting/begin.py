@@ -10,6 +10,7 @@ from pico.bench.bisecting.records import BisectionTask, Tried
 from pico.bench.bisecting.search import Bisection, TrialBench
 from pico.diagnostics import PicoError, error
 from pico.history.bisect.git_state import GitBisect, require_order
+from pico.model.address import renamed_expression, renaming_of
 from pico.model.record import as_json
 from pico.model.state import Expectation
 from pico.policy.expectations import require_expressions
@@ -32,7 +33,7 @@ def begin(
     """
     history = bench.folder.history()
     ends = history.resolve(bad).id, history.resolve(good).id
-    wanted: tuple[Expectation, ...] = (Expectation(that=expect),) if expect is not None else ()
+    wanted: tuple[Expectation, ...] = (_expectation(bench, expect),) if expect is not None else ()
     if from_bad and not wanted:
         wanted = bench.folder.state_at(bad).expect
         if not wanted:
@@ -71,8 +72,9 @@ def under_way(bench: TrialBench, *, expect: str | None = None, measure: float | 
     if not git.detached_from_files:
         hint = "`git bisect run pico bisect step -y --expect ...` goes on with it, `git bisect reset` ends it"
         raise PicoError(error("bisect", "git checks files out for the bisection under way", hint=hint))
-    if expect is not None:
-        require_expressions(bench.setup, [expect])
+    asked = None if expect is None else _expectation(bench, expect)
+    if asked is not None:
+        require_expressions(bench.setup, [asked.that])
     found = _task(git)
     ends = git.ends()
     if found is None:
@@ -81,13 +83,18 @@ def under_way(bench: TrialBench, *, expect: str | None = None, measure: float | 
         found = BisectionTask(bad=ends.bad, good=ends.good[0], trust=True)
     found = replace(
         found,
-        expect=found.expect if expect is None else (Expectation(that=expect),),
+        expect=found.expect if asked is None else (asked,),
         measure=found.measure if measure is None else measure,
     )  # fmt: skip
     tried = [t for note in git.notes() if "tried" in note and (t := _tried(note["tried"])) is not None]
     bisection = Bisection(bench, git, found, tried)
     bisection.settle()
     return bisection
+
+
+def _expectation(bench: TrialBench, expect: str) -> Expectation:
+    """Return what is expected, with each component by the name that it has now."""
+    return Expectation(that=renamed_expression(renaming_of(bench.setup.lab), expect))
 
 
 def _left(bench: TrialBench, ends: tuple[str, str]) -> Bisection | None:

@@ -12,6 +12,7 @@ from pico.history.bisect.git_state import HEAD, GitBisect, Verdict
 from pico.history.git import command as git
 from pico.history.git.partial import require_fetched
 from pico.history.lab.folder import LabFolder
+from pico.model.address import renamed_expression, renaming_of
 from pico.model.plan import Plan
 from pico.model.record import record
 from pico.model.state import Expectation
@@ -52,6 +53,7 @@ def step(bench: TrialBench, expect: str, bring: Callable[[Plan], float]) -> Tria
     where nobody can say how the bench stands. What can't be built, is denied or can't be told is `skip`.
     """
     commit = under_trial(bench.folder)
+    expect = renamed_expression(renaming_of(bench.setup.lab), expect)
     require_expressions(bench.setup, [expect])
     try:
         bench.folder.state_at(commit)

@@ -183,13 +183,13 @@ def who(
         return "operation", f"run {cut or run}, {how}"
     if last and _as_left(setup, change, part, _after(last, change)):
         return "operation", f"run {run}, {last.at}"
-    since = f"; run {run} left it elsewhere, {last.at}" if last else ""
+    placed = f"last {'placed' if change.tunable == 'pose' else 'set'} by run {run}, {last.at}" if last else ""
     if change.tunable == "pose":
         home = setup.lab.inventory[change.component].home
         if not last and home and part.pose and slot_at(setup, part.pose) == home:
             return "unknown", "at home, where a new bench has it"
-        return "person", f"no operation did it{since}"
-    return "unknown", f"no operation set it{since}"
+        return "person", placed or "no run placed it"
+    return "unknown", placed or "no run set it"
 
 
 def _cut_short(records: Sequence[JournalRecord], change: Change) -> str:

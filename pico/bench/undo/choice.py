@@ -132,9 +132,9 @@ def called(memory: Memory, run: RunRecord) -> str:
     """Return a run as a person knows it: its id, what it was for, when it began, and whose it is."""
     plan = document_of(memory, run)
     what = plan.target.name
-    if plan.target.cause in ("undo", "redo") or run.holder.startswith("pico optimize"):
-        what = run.holder.removeprefix("pico ")
-    elif plan.asked:
+    if plan.target.cause in ("undo", "redo"):
+        what = f"{plan.target.cause} of {plan.target.of}"
+    elif plan.asked or run.holder.startswith("pico optimize"):
         what = next((f"{op.primitive} {op.address}" for op in plan.operations if op.reason.kind == "asked"), what)
     elif not plan.open:
         what = f"{plan.target.cause or 'apply'} {plan.target.name}"

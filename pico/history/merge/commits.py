@@ -104,7 +104,7 @@ def refusals(union: Union, labels: Labels, revision: str, sides: tuple[Commit, C
         error(
             "merge-conflict",
             f"{c.address}: {ours} says {c.ours}, {theirs} says {c.theirs}",
-            detail=f"in {path}; {labels.base}, which both come from, says {c.base}",
+            detail=f"in {path}; the common ancestor {labels.base} says {c.base}",
             address=c.address, hint=apart if c.files else hint,
         )
         for path, c in union.conflicts

@@ -33,7 +33,7 @@ def check_light(read: Manifests) -> tuple[Diagnostic, ...]:
             said = told(replace(verdict, findings=(one,)), refused=refused, drawn=drawn)
             found += tuple(replace(d, source=read.source(f"{one.source}.emission")) for d in said)
         if verdict.unjudged:
-            text = f"nobody says how much light {', '.join(verdict.unjudged)} can take: damage is not judged there"
+            text = f"the damage threshold of {', '.join(verdict.unjudged)} is unknown: damage is not judged there"
             hint = "a parameter `damage_threshold` of the type, say {value: 5000, unit: mW/mm^2}, off its data sheet"
             found += (Diagnostic("note", "damage-threshold", text, hint=hint, address=verdict.unjudged[0]),)
     return (*found, *stray_beams(setup, state, ends))
