@@ -50,6 +50,20 @@ def test_the_spot_is_centred_by_the_stage_and_undone(placed: Path, pico: Pico) -
     assert "optimize centre ly_150 cam" in pico("runs", "list").out
 
 
+def test_a_goal_that_the_bench_has_not_adopted_names_what_adopts_it(placed: Path, pico: Pico) -> None:
+    edit(placed / "lab.yaml", "  centred:\n", "  middle:\n")
+    refused = pico("optimize", "middle", "--yes")
+    assert refused.code == 1 and "has no goal `middle`" in refused.err and "`pico bench update`" in refused.err
+    assert "has not adopted that yet" in " ".join(refused.err.split())
+
+
+def test_the_table_says_where_tunables_stood_though_it_was_dark(placed: Path, pico: Pico) -> None:
+    assert pico("set", "laser", "shutter=closed", "--yes").code == 0
+    answer = pico("optimize", "null", "p1", "cam", "--yes")
+    assert answer.code == 6 and answer.err.startswith("shel · sim\n")
+    assert next(line for line in answer.out.splitlines() if "p1.angle  " in line).split()[1:3] == ["1", "deg"]
+
+
 def test_a_goal_of_the_lab_is_one_operation_with_its_points_beside_the_run(placed: Path, pico: Pico) -> None:
     lines = pico("optimize", "centred", "--yes", "--json").out.splitlines()
     found = json.loads(lines[-1])

@@ -139,6 +139,14 @@ def test_an_assertion_that_fails_ends_it_with_six(turning: Path, pico: Pico) -> 
     assert pico("run", "--resume").code == 1  # it has ended
 
 
+def test_a_failure_is_told_of_its_step_and_not_of_those_of_finally(turning: Path, pico: Pico) -> None:
+    edit(turning / "recipes" / "turning.yaml", "< 0.5", "> 0.5")
+    edit(turning / "recipes" / "turning.yaml", "returns:", "finally:\n  - set: {p1.angle: 3}\nreturns:")
+    answer = pico("run", "turning", "--yes")
+    assert answer.code == 6 and "failed at step 1[1].3" in answer.out
+    assert float(pico("get", "p1.angle").out.split()[1]) == 3
+
+
 def test_a_person_is_asked_only_where_one_is(turning: Path, pico: Pico) -> None:
     edit(turning / "recipes" / "turning.yaml", "steps:\n  - foreach", "steps:\n  - prompt: Put it in.\n  - foreach")
     answer = pico("run", "turning", "--yes")

@@ -112,8 +112,9 @@ def test_notes_on_the_old_name_are_shown_and_new_ones_go_to_the_new(lab: Path, p
 
 
 @pytest.mark.slow
-def test_bisect_finds_it_by_the_present_name(lab: Path, pico: Pico) -> None:
-    answer = pico("bisect", "run", "e2", "C1", "--expect", "pol_out.pose.yaw < 20.0", YES)
+@pytest.mark.parametrize("name", ["pol_out", "p2"])
+def test_bisect_finds_it_by_either_name(name: str, lab: Path, pico: Pico) -> None:
+    answer = pico("bisect", "run", "e2", "C1", "--expect", f"{name}.pose.yaw < 20.0", YES)
     assert answer.code == 0, answer.err
 
 

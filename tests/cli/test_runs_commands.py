@@ -261,6 +261,14 @@ def test_what_kind_of_bench_proved_it_is_said_in_words(evidence: str, said: str)
     assert said in [line.strip() for line in proof(found)]
 
 
+def test_runs_that_no_commit_has_are_counted_beyond_the_end_of_the_list(shel: Path, pico: Pico) -> None:
+    for angle in ("1", "2", "3"):
+        assert pico("set", "p1", f"angle={angle}", "-y").code == 0
+    shown = pico("runs", "list", "-n", "2")
+    assert "3 runs that no commit has yet" in shown.out and shown.out.count("set p1.angle") == 2
+    assert len(pico("runs", "list", "-n", "2", "--json").data["runs"]) == 2
+
+
 def test_without_git_the_runs_of_the_bench_are_listed_and_nothing_is_proven(
     ran: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pico: Pico
 ) -> None:

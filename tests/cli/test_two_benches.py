@@ -63,6 +63,23 @@ def runs(pico: Pico, *flags: str) -> list[str]:
     return [run["document"]["id"] for run in done(pico, *flags, "runs", "list")["runs"] if "commit" not in run]
 
 
+@pytest.mark.parametrize(("flags", "name"), [((), "sim"), (EMULATED, "emulated")])
+def test_every_answer_names_its_bench_once(lab: Path, pico: Pico, flags: tuple[str, ...], name: str) -> None:
+    plan = pico(*flags, "plan", "e1")
+    assert plan.out.startswith(f"shel · {name}") and f"shel · {name}" not in plan.err
+    assert pico(*flags, "apply", "e1", "-y").out.count(f"shel · {name}") == 1
+    for words in ("measure p1.angle", "get p1.angle", "beam", "capture", "drift", "runs list", "verify", "optimize"):
+        answer = pico(*flags, *words.split())
+        assert answer.err.splitlines()[0] == f"shel · {name}", words
+        assert f"shel · {name}" not in answer.out
+    assert f"live ({name})" in pico(*flags, "status").out
+    assert "shel ·" not in pico(*flags, "get", "p1.angle", "--json").err
+
+
+def test_a_group_of_benches_is_listed_by_its_name_alone(lab: Path, pico: Pico) -> None:
+    assert pico("bench").out == pico("bench", "list").out and "*  sim" in pico("bench").out
+
+
 def test_no_run_of_one_bench_is_undone_or_taken_up_on_another(lab: Path, pico: Pico) -> None:
     done(pico, *EMULATED, "apply", "e1", "-y")
     done(pico, "set", "cam", "exposure=8", "-y")

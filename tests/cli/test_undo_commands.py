@@ -79,6 +79,15 @@ def test_redo_takes_an_undo_back_and_nothing_else(applied: Path, pico: Pico) -> 
     assert angle(pico) == pytest.approx(40)
 
 
+def test_what_an_undo_takes_back_is_told_in_words(applied: Path, pico: Pico) -> None:
+    assert pico("set", "p1", "angle=40", "--yes").code == 0
+    run = last(pico)
+    undone = pico("undo", "--yes")
+    assert f"→ the state before run {run} ·" in undone.out and f"equals the state before run {run}" in undone.out
+    again = pico("redo", "--yes")
+    assert f"takes back run {last(pico)[:4]}" in again.err and f"(undo of {run}; 20" in " ".join(again.err.split())
+
+
 def test_a_run_of_somebody_else_is_taken_back_only_with_their_name(
     applied: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -70,6 +70,12 @@ def test_a_figure_of_what_is_not_returned_is_refused(wrong: str, said: str) -> N
     assert any(said in one for one in found), found
 
 
+def test_series_that_are_a_list_are_told_as_that(shel: Path) -> None:
+    body = TEXT[TEXT.index("parameters:") :].replace("      each: {", "      - {")
+    _, found = read(body.replace("      last: {x: last, y: last}\n", ""))
+    assert any("`series` of the figure turned names no curve" in one for one in found), found
+
+
 def test_a_run_is_drawn_as_it_was(shel: Path) -> None:
     """What it returned is told by its log alone; the file may be another since, or gone."""
     with Bench.open(shel) as bench:

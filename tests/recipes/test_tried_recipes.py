@@ -47,6 +47,12 @@ def test_who_has_no_git_identity_can_try_a_recipe_that_commits(fresh: Path) -> N
     )
 
 
+def test_a_mistake_is_told_of_the_file_of_the_lab_and_not_of_its_clone(fresh: Path) -> None:
+    (fresh / "recipes" / "one.yaml").write_text(f"{HEAD}steps:\n- set: {{p1.angel: 3}}\n")
+    (found,) = rehearse(str(fresh), "one", "kinematic").diagnostics
+    assert found.source is not None and found.source.path == str(fresh / "recipes" / "one.yaml")
+
+
 def test_a_recipe_that_wants_a_value_is_a_function_and_is_checked_and_not_run(fresh: Path) -> None:
     asks = "parameters: {angles: {kind: numbers, unit: deg}, tilt: 30}\n"
     outcome, why = tried(fresh, f"{asks}steps:\n- foreach: {{angle: angles}}\n  steps:\n  - set: {{p1.angle: angle}}\n")
