@@ -36,9 +36,9 @@ def _finite(value: float) -> float:
     return value
 
 
-Dx = Annotated[float, typer.Option("--dx", help="Millimetres to the right.", callback=_finite)]
-Dy = Annotated[float, typer.Option("--dy", help="Millimetres away from you.", callback=_finite)]
-Dz = Annotated[float, typer.Option("--dz", help="Millimetres up.", callback=_finite)]
+Dx = Annotated[float, typer.Option("--dx", help="Millimeters to the right.", callback=_finite)]
+Dy = Annotated[float, typer.Option("--dy", help="Millimeters away from you.", callback=_finite)]
+Dz = Annotated[float, typer.Option("--dz", help="Millimeters up.", callback=_finite)]
 Dyaw = Annotated[float, typer.Option("--dyaw", help="Degrees counter-clockwise.", callback=_finite)]
 
 

@@ -164,7 +164,7 @@ class Recovery:
         wanted = live_state(self.opened.setup, self._emptied(seen))
         before = left_set(memory, seen) if memory else {}
         wanted = with_values(wanted, before)
-        title = f"the bench with empty hands{f', and {listed(sorted(before))} as before' if before else ''}"
+        title = f"the state with empty grippers{f', and {listed(sorted(before))} as before' if before else ''}"
         target = Target(title=title, cause="recover")
         return Plans(self.opened).to_state(seen, PlanGoal(wanted, target))
 

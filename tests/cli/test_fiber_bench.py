@@ -10,13 +10,16 @@ from pathlib import Path
 import pytest
 from commanding import Pico, edit
 
-LAB = Path(__file__).resolve().parents[1] / "labs" / "fiber_bench"
+LAB = Path(__file__).resolve().parents[1] / "labs" / "fiber"
+SIM = "sim:\n  seed: 1\n  environment: none\n  errors: {seat: 1}\n"
 
 
 @pytest.fixture
 def fiber(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The fiber bench in a repository, its base state committed and applied, as the current directory."""
-    root = shutil.copytree(LAB, tmp_path / "fiber_bench")
+    root = shutil.copytree(LAB, tmp_path / "fiber")
+    edit(root / "lab.yaml", "inventory:\n", f"{SIM}inventory:\n")
+    edit(root / "state" / "table.yaml", "angle: 0}", "angle: 35}")
     for who in ("AUTHOR", "COMMITTER"):
         monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
         monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 _LAB = """\
 # The bench: what is bolted down, what the arm may move, where parts are stored.
-# Millimetres and degrees; origin at the front-left corner, x right, y away from you, yaw counter-clockwise.
+# Millimeters and degrees; origin at the front-left corner, x right, y away from you, yaw counter-clockwise.
 # `pico validate` says what is wrong in this file, `pico render --view top` shows it.
 apiVersion: pico/v1
 kind: Lab

@@ -19,7 +19,7 @@ from pico.model.state import LabState, place_of, with_values
 from pico.planning import PlanGoal, Planner
 from pico.planning.aligned_values import GoalMet, goals_by_tunable, left_to_light
 
-LAB = Path(__file__).resolve().parents[2] / "labs" / "fiber_bench"
+LAB = Path(__file__).resolve().parents[2] / "labs" / "fiber"
 FOUND = {"m1.tip": 2.9, "m1.tilt": 0.06, "m2.tip": 1.9, "m2.tilt": -0.27}
 OTHER = {"m1.tip": -1.1, "m1.tilt": 0.8, "m2.tip": -0.4, "m2.tilt": -1.2}
 AT = "2026-11-27T07:00:00+00:00"
