@@ -30,7 +30,9 @@ class Begun:
         if left < 2:
             return _asked(search)
         trials = count(search.expected_trials(left), "configuration")
-        return f"{_asked(search)}\n{count(left, 'commit')} may be the first bad one: about {trials} to try."
+        ends = search.ends_to_measure()
+        first = f", after {count(len(ends), 'end')}" if ends else ""
+        return f"{_asked(search)}\n{count(left, 'commit')} may be the first bad one: about {trials} to try{first}."
 
     @staticmethod
     def data(search: Bisection) -> dict[str, Any]:

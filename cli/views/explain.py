@@ -17,6 +17,10 @@ _KEY = 10
 SHOWN_RINGS = 5
 
 
+NAMES_BENCH = True
+"""The first line says on which bench the plan is."""
+
+
 def text(plan: Plan, found: Explanation, *, head: str = "", goal: str = "") -> str:
     """Return the reasons of a plan, all of them for one component, in short for the plan as a whole."""
     blocks = [header(plan, head, goal)]

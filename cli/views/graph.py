@@ -15,6 +15,10 @@ from .style import columns, count, paint, seconds
 _RED = "#c62828"
 
 
+NAMES_BENCH = True
+"""The first line says on which bench the plan is."""
+
+
 def text(plan: Plan, graph: PlanGraph, *, head: str = "", goal: str = "", next_step: str = "") -> str:
     """Return the makespan, the operations on the critical path in their order, and what the others have to spare."""
     lines = [header(plan, head, goal), ""]

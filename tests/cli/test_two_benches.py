@@ -67,6 +67,7 @@ def runs(pico: Pico, *flags: str) -> list[str]:
 def test_every_answer_names_its_bench_once(lab: Path, pico: Pico, flags: tuple[str, ...], name: str) -> None:
     plan = pico(*flags, "plan", "e1")
     assert plan.out.startswith(f"shel · {name}") and f"shel · {name}" not in plan.err
+    assert "shel ·" not in pico(*flags, "plan", "e1", "--explain", "p2").err
     assert pico(*flags, "apply", "e1", "-y").out.count(f"shel · {name}") == 1
     for words in ("measure p1.angle", "get p1.angle", "beam", "capture", "drift", "runs list", "verify", "optimize"):
         answer = pico(*flags, *words.split())

@@ -60,7 +60,7 @@ class Bisection:
         end that must be measured can't be built (exit code IMPOSSIBLE).
         """
         ends = self.git.ends()
-        if pending := self._ends():
+        if pending := self.ends_to_measure():
             return self._end(pending)
         for fork in self.git.unproven(ends) if self.mended is None else ():
             if found := self._fork(fork):
@@ -174,7 +174,7 @@ class Bisection:
     def _spent(self) -> float:
         return sum(float(note["spent"]) for note in self.git.notes() if isinstance(note.get("spent"), int | float))
 
-    def _ends(self) -> list[End]:
+    def ends_to_measure(self) -> list[End]:
         """Return the ends that are still to be measured, the good one first."""
         known = {t.end for t in self.tried}
         wanted: tuple[End, ...] = () if self.task.trust or not self.task.expect else ("good", "bad")
