@@ -13,7 +13,7 @@ from .by_light import excepted, stays, unfound
 from .diff import brief
 from .style import count, listed, paint, seconds, wrap
 
-_CAPTURE = "The manifest still holds the old value; `pico capture` updates it."
+_CAPTURE = "The manifest is unchanged; `pico capture` updates it."
 
 
 def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
