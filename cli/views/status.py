@@ -14,10 +14,6 @@ from .style import columns, count, listed, paint, place, valued, wrap
 LONG = 40
 
 
-NAMES_BENCH = True
-"""The head of the table says of which bench `live` is."""
-
-
 def text(status: Status, *, every: bool = False) -> str:
     """Return the table of three columns; of a long one only what differs, unless `every`."""
     rows = [r for r in status.rows if every or len(status.rows) <= LONG or not r.equal]

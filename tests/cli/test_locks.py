@@ -34,7 +34,7 @@ def test_who_has_the_bench_for_an_instant_refuses_no_commit(shel: Path, pico: Pi
     assert pico("apply", "--auto-approve").code == 0
     pico("sim", "nudge", "p2", "--dx", "4")
     with BenchLock(bench_at(shel)).held("sim nudge p1"):
-        assert pico("status").err == "" and pico("commit", "-m", "p2", "--capture").code == 0
+        assert pico("status").err == "shel · sim\n" and pico("commit", "-m", "p2", "--capture").code == 0
 
 
 def test_only_movers_wait(pico: Pico, shel: Path) -> None:

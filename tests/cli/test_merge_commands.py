@@ -43,7 +43,7 @@ def test_what_a_killed_merge_left_is_told_by_the_next_command_and_the_merge_then
     said = pico("merge", "left")
     assert said.code == 0 and said.out.startswith("Merged left ("), said.err
     assert "took back what was half written by `pico merge left`, which was killed" in said.err
-    assert pico("status").err == ""
+    assert pico("status").err == "shel · sim\n"
 
 
 WORDS = (
@@ -85,7 +85,7 @@ def test_the_driver_is_taken_out_set_and_checked(shel: Path, pico: Pico) -> None
     assert pico("doctor").out.startswith("All is well")
     assert pico("git", "uninstall").code == 0
     assert "merge.pico" not in git("config", "--list", "--local")
-    assert pico("status").err == "" and "git-driver" in pico("doctor").err
+    assert pico("status").err == "shel · sim\n" and "git-driver" in pico("doctor").err
     assert pico("git", "install").code == 0 and pico("doctor", "--json").data["well"]
 
 

@@ -69,11 +69,20 @@ def test_every_answer_names_its_bench_once(lab: Path, pico: Pico, flags: tuple[s
     assert plan.out.startswith(f"shel · {name}") and f"shel · {name}" not in plan.err
     assert "shel ·" not in pico(*flags, "plan", "e1", "--explain", "p2").err
     assert pico(*flags, "apply", "e1", "-y").out.count(f"shel · {name}") == 1
-    for words in ("measure p1.angle", "get p1.angle", "beam", "capture", "drift", "runs list", "verify", "optimize"):
+    for words in (
+        "measure p1.angle",
+        "get p1.angle",
+        "beam",
+        "capture",
+        "drift",
+        "runs list",
+        "verify",
+        "optimize",
+        "status",
+    ):
         answer = pico(*flags, *words.split())
         assert answer.err.splitlines()[0] == f"shel · {name}", words
         assert f"shel · {name}" not in answer.out
-    assert f"live ({name})" in pico(*flags, "status").out
     assert "shel ·" not in pico(*flags, "get", "p1.angle", "--json").err
 
 
