@@ -38,6 +38,23 @@ class Typed(io.StringIO):
         return True
 
 
+def succeed(*words: str) -> None:
+    """Run a command in the current directory, as a function that `brought` calls does; it must succeed."""
+    from pico_cli.main import main
+
+    assert main(words) == 0, words
+
+
+def apply_manifest(_: Path) -> None:
+    """Make the bench what the manifest says."""
+    succeed("apply", "--yes")
+
+
+def apply_e1(_: Path) -> None:
+    """Make the bench what the branch e1 says."""
+    succeed("apply", "e1", "--yes")
+
+
 def edit(path: Path, before: str, after: str) -> None:
     """Change a manifest as somebody with an editor would."""
     text = path.read_text()

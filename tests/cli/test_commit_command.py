@@ -7,7 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from commanding import Pico, edit
+from commanding import Brought, Pico, apply_manifest, edit, succeed
 
 from pico import open as open_bench
 
@@ -30,11 +30,15 @@ def trailer(key: str) -> list[str]:
 
 
 @pytest.fixture
-def built(shel: Path, pico: Pico) -> Path:
-    """The example with its bench built as the manifest says, and the run of that in a commit."""
-    assert pico("apply", "--auto-approve").code == 0
-    assert pico("commit", "-m", "built").code == 0
+def built(shel: Path, brought: Brought) -> Path:
+    brought(apply_and_commit)
     return shel
+
+
+def apply_and_commit(folder: Path) -> None:
+    """The example with its bench built as the manifest says, and the run of that in a commit."""
+    apply_manifest(folder)
+    succeed("commit", "-m", "built")
 
 
 def test_without_a_message_it_says_what_moved(built: Path, pico: Pico) -> None:

@@ -10,15 +10,15 @@ import sys
 from pathlib import Path
 
 import pytest
-from commanding import Pico, edit
+from commanding import Brought, Pico, apply_e1, edit
 
 STANDING = {"p1.angle": 1.0, "p2.angle": 90.0, "hwp.angle": 22.75, "cam.exposure": 10.0}
 
 
 @pytest.fixture
-def lit(shel: Path, pico: Pico) -> Path:
+def lit(shel: Path, brought: Brought) -> Path:
     """The case study with its light on the camera."""
-    assert pico("apply", "e1", "--yes").code == 0
+    brought(apply_e1)
     return shel
 
 

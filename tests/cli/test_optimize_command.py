@@ -13,7 +13,7 @@ from pathlib import Path
 
 import cv2
 import pytest
-from commanding import Pico, edit, with_goals
+from commanding import Brought, Pico, edit, succeed, with_goals
 
 GOALS = """goals:
   centred:
@@ -30,12 +30,16 @@ inventory:
 
 
 @pytest.fixture
-def placed(shel: Path, pico: Pico) -> Path:
-    """The case study with its light on the camera, in a world that stands still."""
-    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
-    with_goals(shel / "lab.yaml", GOALS)
-    assert pico("apply", "e1", "--yes").code == 0
+def placed(shel: Path, brought: Brought) -> Path:
+    brought(light_on_camera)
     return shel
+
+
+def light_on_camera(folder: Path) -> None:
+    """The case study with its light on the camera, in a world that stands still."""
+    edit(folder / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n")
+    with_goals(folder / "lab.yaml", GOALS)
+    succeed("apply", "e1", "--yes")
 
 
 def test_the_spot_is_centred_by_the_stage_and_undone(placed: Path, pico: Pico) -> None:

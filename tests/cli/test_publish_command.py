@@ -13,7 +13,7 @@ from typing import Any
 from urllib.parse import unquote
 
 import pytest
-from commanding import Pico
+from commanding import Brought, Pico, succeed
 from data_labs import git
 
 from pico.bench.publishing import publish
@@ -21,14 +21,18 @@ from pico.history.data.lab import LabData
 
 
 @pytest.fixture
-def lab(shel: Path, pico: Pico) -> Path:
-    """Return a lab whose last commit carries a run, with a license."""
-    (shel / "LICENSE").write_text("Creative Commons Attribution 4.0 International\n\nYou are free to share.\n")
+def lab(shel: Path, brought: Brought) -> Path:
+    brought(licensed_run)
+    return shel
+
+
+def licensed_run(folder: Path) -> None:
+    """A lab whose last commit carries a run, with a license."""
+    (folder / "LICENSE").write_text("Creative Commons Attribution 4.0 International\n\nYou are free to share.\n")
     git("add", "LICENSE")
     git("commit", "-q", "-m", "a license")
-    assert pico("set", "p1", "angle=12", "-y").code == 0
-    assert pico("commit", "-m", "p1 a little", "--capture").code == 0
-    return shel
+    succeed("set", "p1", "angle=12", "-y")
+    succeed("commit", "-m", "p1 a little", "--capture")
 
 
 def run_of(lab: Path) -> Path:

@@ -7,16 +7,20 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from commanding import Answer, Pico, edit
+from commanding import Answer, Brought, Pico, edit, succeed
 
 PLAN = "e1.plan"
 
 
 @pytest.fixture
-def saved(shel: Path, pico: Pico) -> Path:
-    assert pico("apply", "C3", "--auto-approve").code == 0
-    assert pico("plan", "e1", "--out", PLAN).code == 0
+def saved(shel: Path, brought: Brought) -> Path:
+    brought(save_plan)
     return shel
+
+
+def save_plan(_: Path) -> None:
+    succeed("apply", "C3", "--auto-approve")
+    succeed("plan", "e1", "--out", PLAN)
 
 
 def git(*words: str) -> None:

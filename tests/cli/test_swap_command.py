@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commanding import Pico, Typed, a_run_goes_on, edit
+from commanding import Brought, Pico, Typed, a_run_goes_on, apply_manifest, edit
 
 from pico import open as pico_open
 
@@ -21,9 +21,9 @@ sys.exit(main())
 
 
 @pytest.fixture
-def kept(shel: Path, pico: Pico) -> Path:
+def kept(shel: Path, brought: Brought) -> Path:
     """The example whose bench keeps its Lab."""
-    assert pico("apply", "--yes").code == 0
+    brought(apply_manifest)
     return shel
 
 

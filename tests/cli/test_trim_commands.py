@@ -9,19 +9,23 @@ from pathlib import Path
 
 import pytest
 import yaml
-from commanding import Pico, edit, with_goals
+from commanding import Brought, Pico, edit, succeed, with_goals
 from test_optimize_command import GOALS
 
 
 @pytest.fixture
-def aligned(shel: Path, pico: Pico) -> Path:
-    """The case study in a world that errs, its spot centred by the goal of the lab."""
-    subprocess.run(["git", "checkout", "-q", "e1"], cwd=shel, check=True)
-    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  errors: {seat: 1}\n")
-    with_goals(shel / "lab.yaml", GOALS)
-    assert pico("apply", "--yes").code == 0
-    assert pico("optimize", "centred", "--yes").code == 0
+def aligned(shel: Path, brought: Brought) -> Path:
+    brought(center_spot)
     return shel
+
+
+def center_spot(folder: Path) -> None:
+    """The case study in a world that errs, its spot centered by the goal of the lab."""
+    subprocess.run(["git", "checkout", "-q", "e1"], cwd=folder, check=True)
+    edit(folder / "lab.yaml", "  seed: 1\n", "  seed: 1\n  errors: {seat: 1}\n")
+    with_goals(folder / "lab.yaml", GOALS)
+    succeed("apply", "--yes")
+    succeed("optimize", "centred", "--yes")
 
 
 def stage(pico: Pico) -> float:

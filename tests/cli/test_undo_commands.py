@@ -10,7 +10,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from commanding import Brought, Pico
+from commanding import Brought, Pico, apply_manifest
 
 from pico.bench.plans import Plans
 
@@ -28,14 +28,8 @@ def last(pico: Pico) -> str:
 
 @pytest.fixture
 def applied(shel: Path, brought: Brought) -> Path:
-    brought(_apply)
+    brought(apply_manifest)
     return shel
-
-
-def _apply(folder: Path) -> None:
-    from pico_cli.main import main
-
-    assert main(["apply", "--yes"]) == 0
 
 
 def test_measurements_are_skipped_and_the_run_is_named(applied: Path, pico: Pico) -> None:

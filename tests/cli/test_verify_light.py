@@ -6,25 +6,29 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from commanding import Pico, edit
+from commanding import Brought, Pico, edit, succeed
 
 import pico as library
 
 
 @pytest.fixture
-def built(shel: Path, pico: Pico) -> Path:
+def built(shel: Path, brought: Brought) -> Path:
+    brought(align_and_commit)
+    return shel
+
+
+def align_and_commit(folder: Path) -> None:
     """E2-2 of the case study in a world that stands still, aligned and measured, and committed."""
-    edit(shel / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n  errors: {seat: 1}\n")
+    edit(folder / "lab.yaml", "  seed: 1\n", "  seed: 1\n  environment: none\n  errors: {seat: 1}\n")
     state = subprocess.run(["git", "show", "E2-2:state/table.yaml"], check=True, capture_output=True).stdout
     subprocess.run(["git", "checkout", "-q", "-b", "one"], check=True)
-    (shel / "state" / "table.yaml").write_bytes(state)
-    assert pico("apply", "--align", "--yes").code == 0
-    pico("set", "hwp.angle", "2", "-y")
-    pico("set", "cam.exposure", "0.02", "-y")
+    (folder / "state" / "table.yaml").write_bytes(state)
+    succeed("apply", "--align", "--yes")
+    succeed("set", "hwp.angle", "2", "-y")
+    succeed("set", "cam.exposure", "0.02", "-y")
     for address in ("laser.monitor", "cam.centroid", "cam.light"):
-        assert pico("measure", address).code == 0
-    assert pico("commit", "-m", "E2-2, measured").code == 0
-    return shel
+        succeed("measure", address)
+    succeed("commit", "-m", "E2-2, measured")
 
 
 def verified(pico: Pico, *words: str) -> tuple[int, dict[str, object]]:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from bench_at import bench_at
-from commanding import Pico, a_run_goes_on, edit
+from commanding import Brought, Pico, a_run_goes_on, apply_manifest, edit
 
 from pico.bench.drifting.drift import Drift, calibration_drift, news, require_heal
 from pico.diagnostics import PicoError
@@ -22,8 +22,8 @@ IGNORE = "policy:\n  ignore: [p2]\n"
 
 
 @pytest.fixture
-def applied(shel: Path, pico: Pico) -> Path:
-    assert pico("apply", "--auto-approve").code == 0
+def applied(shel: Path, brought: Brought) -> Path:
+    brought(apply_manifest)
     return shel
 
 
