@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-slow test-gui check schemas ui clean
+.PHONY: demo test test-slow test-gui slowest check schemas ui clean
 .DELETE_ON_ERROR:
 
 demo: $(STAMP)
@@ -15,7 +15,11 @@ test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "not slow"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m slow
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m slow
+
+# All tests, and the 30 that cost most processor time; ONLY="not slow" leaves the slow ones out.
+slowest: $(STAMP)
+	PYTHONPATH=.ci $(BIN)/python -m pytest -n 2 -p slowest $(if $(ONLY),-m "$(ONLY)")
 
 check: $(STAMP)
 	$(BIN)/ruff format --check .
@@ -38,14 +42,14 @@ schemas: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema
 	$(BIN)/python -m pico.recipes.schema
 
-$(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py
+$(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py .ci/install.py
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'
 	@test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
-	@echo "Installing into $(VENV) (once, about a minute) ..."
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt setuptools wheel
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt --no-build-isolation -e '.[dev]'
+	@echo "Installing into $(VENV) (once, one to three minutes) ..."
+	@$(BIN)/python .ci/install.py -c constraints.txt setuptools wheel
+	@$(BIN)/python .ci/install.py -c constraints.txt --no-build-isolation -e '.[dev]'
 	@$(BIN)/python .ci/path.py
-	@$(BIN)/python -m pip install --quiet --disable-pip-version-check --no-deps -r tests/kernels/pictures.txt
+	@$(BIN)/python .ci/install.py --no-deps -r tests/kernels/pictures.txt
 	@touch $(STAMP)
 
 clean:
