@@ -11,7 +11,7 @@ from pico.model.record import as_json
 from .style import ago, columns, paint, wrap
 
 if TYPE_CHECKING:
-    from pico.bench.aligned import Alignment
+    from pico.planning.alignment import Alignment
 
 _STYLES = {"aligned": "green", "stale": "yellow", "lost": "red"}
 

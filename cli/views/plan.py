@@ -15,7 +15,7 @@ from pico.model.plan import Plan
 from pico.model.pose import wrap as wrap_angle
 from pico.model.primitive import OWN
 from pico.model.record import as_json
-from pico.model.state import goals_of, state_from_json
+from pico.model.state import goals_of
 
 from .by_light import excepted, unfound
 from .diff import brief
@@ -299,7 +299,7 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
 
 def _as_wanted(plan: Plan) -> str:
     if said := {d.address for d in plan.diagnostics if d.code == "by-light"}:
-        goals = goals_of(state_from_json(plan.lab.name, plan.target.state)).values()
+        goals = goals_of(plan.target_state).values()
         missed = [address for of in goals if said & of.keys() for address in of]
         return f"Nothing to do by numbers. {unfound(goal_name(plan), missed or sorted(said))}"
     if plan.target.cause == "recover":

@@ -2,23 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from datetime import datetime
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.edge.lease import utc_now
 from pico.model.diff import value_distance
 from pico.model.goal import Goal
 from pico.model.observation import Observation
-from pico.model.operation import Operation, Reason, searched_by, touched_by
+from pico.model.operation import Operation, Reason
 from pico.model.pose import Pose
 from pico.model.primitive import primitive
 from pico.model.quantities import convert
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import LabState
+from pico.planning.alignment import ALONG, PUT_BACK, Alignment, Status, left_changed, spoiled_goals, upset_in
 from pico.planning.asked import Ready
 from pico.planning.by_light import told_of, with_goals
 from pico.planning.foreseen import foreseen
@@ -42,31 +43,8 @@ class Remembering(Protocol):
     def edge(self) -> Edge: ...
 
 
-Status = Literal["aligned", "stale", "lost", "never measured"]
 MOST = 1000
 """Runs that are looked back for the last time that a goal was sought."""
-_LIT = ("shutter", "emission", "illumination")
-"""Tunables that let light out, and leave its way as it is."""
-_PUT_BACK = ("survey",)
-"""Primitives that leave their tunables as they were."""
-_ALONG = ("interlock", "parked")
-"""Reasons of operations that leave light as it was when they are over."""
-
-
-@dataclass(frozen=True)
-class Alignment:
-    """How a goal stands: `why` where it is not aligned; `at` by the wall, and `last`, what was measured then; `order`:
-    how far along the beam its first tunable stands [mm], None where its light does not come through all that is tuned
-    to all that is measured; `seconds` that it takes to be sought again, and whether that is by `experience`."""
-
-    goal: str
-    status: Status
-    why: str = ""
-    at: str = ""
-    last: Mapping[str, float] | None = None
-    order: float | None = None
-    seconds: float = 0.0
-    experience: bool = False
 
 
 def since_last_sought(memory: Memory, goals: Collection[str]) -> list[JournalRecord]:
@@ -155,48 +133,6 @@ def alignments(
     return tuple(sorted(found, key=lambda a: (a.order is None, a.order or 0.0, a.goal)))
 
 
-def spoiled(
-    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
-) -> Iterator[tuple[Alignment, str]]:
-    """Yield each goal that is aligned now and will not be after a plan, where there still is light for it, with what
-    changes in its light; in the order along the beam."""
-    then = foreseen(setup, seen, operations)
-    for one in standing:
-        wrong = _upset_by(setup, seen, one.goal, operations) if one.status == "aligned" else ""
-        if wrong and goal_light(setup, then, (setup.lab.goals or {})[one.goal]).order is not None:
-            yield one, wrong
-
-
-def unmet_after(
-    setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation]
-) -> Iterator[Alignment]:
-    """Yield each goal of the Lab that is not aligned now, is not sought by a plan, and has light after it; in the order
-    along the beam."""
-    then = foreseen(setup, seen, operations)
-    sought = {op.arguments.get("goal") for op in operations if op.primitive == "optimize"}
-    for one in standing:
-        goal = (setup.lab.goals or {}).get(one.goal)
-        waiting = goal is not None and one.status != "aligned" and one.goal not in sought
-        if waiting and goal is not None and goal_light(setup, then, goal).order is not None:
-            yield one
-
-
-def _upset_by(setup: Setup, seen: Observation, name: str, operations: Sequence[Operation]) -> str:
-    """Return which of what operations touch a goal depends on, as its light runs before them or after; empty for none,
-    and where one of them seeks it."""
-    touched = {
-        one
-        for op in operations
-        if op.reason.kind not in _ALONG and op.kind.mutating and op.primitive not in _PUT_BACK
-        for one in _left_changed(op.component, op.arguments)
-    }
-    own = [op for op in operations if op.primitive == "optimize" and op.arguments.get("goal") == name]
-    goal = (setup.lab.goals or {})[name]
-    if own or not touched:
-        return ""
-    return _upset(setup, seen, goal, touched) or _upset(setup, foreseen(setup, seen, operations), goal, touched)
-
-
 def redone(
     setup: Setup, seen: Observation, standing: Sequence[Alignment], operations: Sequence[Operation],
     ready: Mapping[str, Ready] = MappingProxyType({}),
@@ -206,7 +142,7 @@ def redone(
 
     `standing`: as the bench is `seen` now. `ready`: goals that were made ready, by name."""
     then = foreseen(setup, seen, operations)
-    wrong = {one.goal: f"{what} changes" for one, what in spoiled(setup, seen, standing, operations)}
+    wrong = {one.goal: f"{what} changes" for one, what in spoiled_goals(setup, seen, standing, operations)}
     wrong |= {one.goal: one.why or one.status for one in standing if one.status != "aligned"}
     found: list[tuple[float, Alignment, frozenset[str]]] = []
     for one in (one for one in standing if one.goal in (setup.lab.goals or {})):
@@ -301,14 +237,14 @@ def _begun_since(records: Sequence[JournalRecord], end: JournalRecord) -> list[J
         r
         for r in records
         if r.kind == "intent" and r.key in begun and primitive(str(r.data.get("primitive"))).mutating
-        if r.data.get("primitive") not in _PUT_BACK
-        if (r.data.get("reason") or {}).get("kind") not in _ALONG
+        if r.data.get("primitive") not in PUT_BACK
+        if (r.data.get("reason") or {}).get("kind") not in ALONG
     ]
 
 
 def _upset_since(setup: Setup, seen: Observation, goal: Goal, begun: Sequence[JournalRecord]) -> str:
     """Return which of what operations changed the light of a goal depends on: as it runs now, or as it ran before."""
-    touched = {one for r in begun for one in _left_changed(r.component, r.data.get("arguments", {}))}
+    touched = {one for r in begun for one in left_changed(r.component, r.data.get("arguments", {}))}
     if not touched:
         return ""
     before = dict(seen.components)
@@ -316,29 +252,7 @@ def _upset_since(setup: Setup, seen: Observation, goal: Goal, begun: Sequence[Jo
         start = (r.data.get("arguments") or {}).get("from")
         if isinstance(start, Mapping) and "pose" in start and r.component in before:
             before[r.component] = replace(before[r.component], presence="seen", pose=Pose(**start["pose"]))
-    return _upset(setup, seen, goal, touched) or _upset(setup, replace(seen, components=before), goal, touched)
-
-
-def _left_changed(component: str, arguments: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """Yield what an operation leaves changed: of an optimization what it searched, as it sets all else back."""
-    if searched := searched_by(arguments):
-        yield from ((one, tunable) for one, _, tunable in (address.partition(".") for address in searched))
-    else:
-        yield from touched_by(component, arguments)
-
-
-def _upset(setup: Setup, seen: Observation, goal: Goal, touched: Collection[tuple[str, str]]) -> str:
-    """Return which of what is touched its light depends on: a tunable of the goal, or a part in the beams to where it
-    is measured; empty for none."""
-    light = goal_light(setup, seen, goal)
-    own = {*(goal.during or ())}.union(*(goal.looks or {}).values())
-    for component, tunable in sorted(touched):
-        if f"{component}.{tunable}" in goal.tunables:
-            return f"{component}.{tunable}"
-        harmless = tunable in _LIT or f"{component}.{tunable}" in own or component in light.beyond
-        if component in light.parts and not harmless and (tunable == "pose" or component not in light.detectors):
-            return component if tunable == "pose" else f"{component}.{tunable}"
-    return ""
+    return upset_in(setup, seen, goal, touched) or upset_in(setup, replace(seen, components=before), goal, touched)
 
 
 def _elsewhere(setup: Setup, seen: Observation, goal: Goal, last: Mapping[str, float]) -> str:

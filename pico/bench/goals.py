@@ -16,10 +16,10 @@ from pico.optimize.problem import Problem, Variable
 from pico.planning.asked import Ready
 
 if TYPE_CHECKING:
-    from pico.bench.aligned import Alignment
     from pico.model.plan import Plan
     from pico.model.trace.event import Event
     from pico.model.trace.report import RunReport
+    from pico.planning.alignment import Alignment
     from pico.planning.sought import Sought
 
 

@@ -73,9 +73,9 @@ class Pictures:
 
     def _not_safe(self, plan: Plan) -> tuple[tuple[tuple[float, float], ...], ...]:
         """Return the branches that the beam audit finds fault with in a plan, as lines [mm]."""
-        from pico.bench.auditing import audit_plan
+        from pico.bench.auditing import case_of
 
-        audit, _ = audit_plan(self.opened, plan, self.opened.observe())
+        audit, _ = case_of(self.opened, plan, self.opened.observe()).light
         return tuple(f.path for f in audit.findings if f.path)
 
     def sheet(self, revision: str | None = None, *, manifest: bool = False) -> str:

@@ -7,10 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.bench.auditing import with_audit, with_claims
+from pico.bench.auditing import case_of
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
 from pico.manifest.file_names import EXCLUDED
@@ -19,12 +19,13 @@ from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
 from pico.model.operation import Operation
-from pico.model.plan import Plan, Spoiled, Target
+from pico.model.plan import Plan, Target
 from pico.model.quantities import Value
 from pico.model.request import PrimitiveRequest, as_stated, asked, value_at
-from pico.model.state import LabState, goals_of, place_of, references_of, state_from_json, with_values
+from pico.model.state import LabState, place_of, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
+from pico.policy.judging.judges import judge_plan
 from pico.vision.calibration import calibration_digest, made_at
 
 if TYPE_CHECKING:
@@ -159,7 +160,7 @@ class Plans:
         from pico.planning.foreseen import foreseen
         from pico.planning.realigning import realigned
 
-        setup, state = self.opened.setup, state_from_json(plan.lab.name, plan.target.state)
+        setup, state = self.opened.setup, plan.target_state
         by_light = sought_in(setup, foreseen(setup, seen, plan.operations), state)
         goals, here = with_goals(setup, by_light), as_meant(setup, seen, state)
         stands = standing(self.opened, seen, state, wanted=True)
@@ -183,70 +184,17 @@ class Plans:
         )
 
     def judged(self, plan: Plan, seen: Observation) -> Plan:
-        """Return the plan with what the beam audit and the policy of the lab say of it, which claims its goal does not
-        carry, and which goals it makes stale. Of a step of an open run nobody reads that, and its edge judges it again
-        anyway."""
+        """Return the plan with what its judges say of it, see `pico.policy.judging`. Skipped for steps of an open run;
+        the edge judges those."""
         if (far := self.opened.far) is not None and not far.local:
             plan = replace(plan, bench=far.name).sealed()
         if self.opened.recording is not None and (plan.asked or plan.target.title):
             return plan
-        plan = self._within_dose(with_claims(self.opened, with_audit(self.opened, plan, seen)), seen)
-        told, lost = self._of_light(plan, seen)
-        if told or lost:
-            plan = replace(plan, spoils=lost or None, diagnostics=(*plan.diagnostics, *told)).sealed()
-        if not self.opened.setup.lab.policy.rules:
-            return plan
-        from pico.policy.rules import judged
-
-        if plan.operations:
+        if self.opened.setup.lab.policy.rules and plan.operations:
             from pico.manifest.expression_checks import check_rules
 
             _require_sense(check_rules(self.opened.folder.manifests))
-        return judged(self.opened.setup, plan, seen)
-
-    def _within_dose(self, plan: Plan, seen: Observation) -> Plan:
-        """Return the plan, with what is wrong where it would give a sample more light than it may have."""
-        setup = self.opened.setup
-        if not plan.operations or not any(part.dose_budget for part in setup.lab.inventory.values()):
-            return plan
-        from pico.policy.dose import refused
-
-        wrong = refused(setup, seen, self.opened.wait(self.opened.edge.doses()), plan.operations)
-        return replace(plan, diagnostics=(*plan.diagnostics, *wrong)).sealed() if wrong else plan
-
-    def _of_light(
-        self, plan: Plan, seen: Observation
-    ) -> tuple[tuple[Diagnostic, ...], tuple[Spoiled, ...]]:  # fmt: skip
-        """Return which set-points of its goal light has yet to find, and which goals of the Lab the plan spoils."""
-        opened, setup = self.opened, self.opened.setup
-        state = wanted = state_from_json(plan.lab.name, plan.target.state)
-        if not references_of(wanted):
-            state = opened.folder.state_now() or wanted
-        kept = {c.aligned.goal for c in plan.changes if c.aligned}
-        if not (references_of(state) or kept or (setup.lab.goals and plan.operations)):
-            return (), ()
-        from pico.bench.aligned import spoiled, standing, unmet_after
-        from pico.bench.by_light import staying, told
-        from pico.planning.by_light import told_of, with_goals
-
-        stands = standing(opened, seen, state, wanted=True)
-        sought = with_goals(setup, told_of(setup, seen, state, wanted=True))
-        unmet = told(stands, state, plan.operations) if references_of(wanted) else staying(plan, state)
-        found, references = [*spoiled(sought, seen, stands, plan.operations)], goals_of(state)
-        stale = tuple(
-            warning(
-                "by-light", f"{one.goal} is aligned, and will not be: {why} changes",
-                hint=f"then `pico optimize {one.goal}`, about {one.seconds:.0f} s",
-                address=next(iter(references[one.goal])),
-            )
-            for one, why in found if one.goal in references  # set-points of the state, which the bench will not equal
-        )  # fmt: skip
-        lost = [Spoiled(goal=o.goal, why=f"{w} changes", at=o.at, seconds=o.seconds) for o, w in found]
-        lost += [
-            Spoiled(goal=one.goal, why=one.why or one.status, at=one.at, seconds=one.seconds)
-            for one in unmet_after(setup, seen, stands, plan.operations) if one.goal in kept
-        ]  # fmt: skip
-        return (*unmet, *stale), tuple(one for one in lost if one.goal not in references)
+        return judge_plan(case_of(self.opened, plan, seen))
 
     def leaves_manifest(self, plan: Plan) -> bool:
         """Whether a plan leads the whole bench to a revision, and away from what the manifest says."""
@@ -374,7 +322,7 @@ class Plans:
 
         What is not named, and what is relative, counts from where the bench stands, or from the state `base`.
         """
-        from pico.execution.checks import require_able
+        from pico.policy.capability import require_able
 
         seen, setup = self._seen(), self.opened.setup
         stands = seen if base is None else as_stated(setup, base)
@@ -404,7 +352,7 @@ class Plans:
 
     def _able(self, planner: Planner, goal: PlanGoal) -> Plan:
         """Return the plan to a goal that the bench can do, judged; raises PicoError where it can't."""
-        from pico.execution.checks import require_able
+        from pico.policy.capability import require_able
 
         found, seen = planner.plan(goal), planner.seen
         require_able(found, self.opened.wait(self.opened.edge.describe()))
@@ -467,7 +415,7 @@ class Plans:
     def not_in_manifest(self, plan: Plan) -> tuple[Change, ...]:
         """Return where a bench at the goal of a plan will have left the manifest, beyond tolerance; raises PicoError
         where that can't be read."""
-        setup, goal = self.opened.setup, state_from_json(plan.lab.name, plan.target.state)
+        setup, goal = self.opened.setup, plan.target_state
         parts = {
             name: ObservedComponent(
                 pose=place_of(setup, goal, name)[1], values={k: ObservedValue(value=v) for k, v in part.values.items()}

@@ -91,7 +91,7 @@ class Recovery:
         self._as_before(memory)
         only = began.target.only or _asked(began, sought)
         seen = self.opened.observe()
-        wanted = renamed_state(renaming_of(self.opened.setup.lab), state_from_json(began.lab.name, began.target.state))
+        wanted = renamed_state(renaming_of(self.opened.setup.lab), began.target_state)
         target = began.target
         if began.asked and not (target.revision or target.title):
             target = replace(target, title=f"what run {last.run} was to lead to")

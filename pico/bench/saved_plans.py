@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.execution.stale import edited, stale
 from pico.model.diff import diff_states
 from pico.model.plan import Plan
-from pico.model.state import state_from_json
+from pico.policy.freshness import edited, stale, staleness
 
 if TYPE_CHECKING:
     from pico.bench.opened import Opened
@@ -19,16 +18,11 @@ if TYPE_CHECKING:
 def changed_since(opened: Opened, plan: Plan, seen: Observation) -> list[Diagnostic]:
     """Return what is not as it was when a plan was made and saved: bench, commit, goal, lab or calibration, each with
     what changed and by how much."""
-    from pico.execution.checks import require_current
-
     if other := _of_another(opened, plan):
         return [other]
     found = [*_lab(opened, plan), *_commit(opened, plan), *_goal(opened, plan), *_calibration(opened, plan)]
     if plan.lab.digest == opened.setup.digest():
-        try:
-            require_current(opened.setup, plan, seen)
-        except PicoError as exc:
-            found += exc.diagnostics
+        found += staleness(opened.setup, plan, seen)
     return found
 
 
@@ -83,7 +77,7 @@ def _goal(opened: Opened, plan: Plan) -> Iterator[Diagnostic]:
         yield stale("", f"{name} is {_short(now)} now, and was {_short(plan.target.commit)}")
     if wanted is None or wanted.as_json() == dict(plan.target.state):
         return
-    for change in diff_states(opened.setup, state_from_json(plan.lab.name, plan.target.state), wanted):
+    for change in diff_states(opened.setup, plan.target_state, wanted):
         address = change.component if change.tunable == "pose" else f"{change.component}.{change.tunable}"
         yield stale(address, f"the manifest was edited since: {address} {change.text}")
 

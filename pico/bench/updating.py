@@ -20,11 +20,11 @@ from pico.edge import own_lab
 from pico.edge.network.opening import opened
 from pico.edge.network.opening import own_lab as kept
 from pico.edge.protocol import OwnLab
-from pico.execution.stale import edited
 from pico.model.address import renaming_of
 from pico.model.lab import Known
 from pico.model.quantities import Value
 from pico.model.record import record
+from pico.policy.freshness import edited
 
 if TYPE_CHECKING:
     from pico.bench.importing import Imported

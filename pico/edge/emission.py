@@ -56,13 +56,11 @@ class Guarded:
 
 
 def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[Diagnostic]:
-    from pico.policy.audit import require_safe
+    from pico.policy.judging.case import PlanCase
+    from pico.policy.judging.judges import judgment_of
 
-    try:
-        require_safe(setup, _plan(setup, seen, operation, seen.backend, ""), seen)
-    except PicoError as exc:
-        return exc.diagnostics
-    return ()
+    plan = _plan(setup, seen, operation, seen.backend, "")
+    return judgment_of("beams", PlanCase(setup, plan, seen)).refusals
 
 
 async def uncommissioned(

@@ -398,19 +398,18 @@ class LocalEdge:
 
     async def doses(self) -> tuple[Dose, ...]:
         """Return what the samples of the bench had; see `pico.edge.protocol.Edge`."""
-        if not any(part.sample for part in self.setup.lab.inventory.values()):
+        return self._doses(await self.observe()) if self._has_samples() else ()
+
+    def _has_samples(self) -> bool:
+        return any(part.sample for part in self.setup.lab.inventory.values())
+
+    def _doses(self, seen: Observation) -> tuple[Dose, ...]:
+        """Return what the samples of the bench had until it was seen so."""
+        if not self._has_samples():
             return ()
         from pico.edge.dose import read
 
-        return read(self.place).until(self.setup, await self.observe()).doses(self.setup)
-
-    async def _require_dose(self, plan: Plan, seen: Observation) -> None:
-        """Raise PicoError (exit code DENIED) where a plan would give a sample more light than it may have."""
-        if doses := await self.doses():
-            from pico.policy.dose import refused
-
-            if wrong := refused(self.setup, seen, doses, plan.operations):
-                raise PicoError(wrong, ExitCode.DENIED)
+        return read(self.place).until(self.setup, seen).doses(self.setup)
 
     async def release(self, lease: Lease) -> None:
         """Give the bench back, once everything under way has ended."""
@@ -486,23 +485,16 @@ class LocalEdge:
 
     async def start(self, job: Job, run: str) -> str:
         """Check a plan again, and start a run of it; see `pico.edge.protocol.Edge`."""
-        from pico.execution.checks import require_allowed, require_applicable, require_current
-
         if not job.resumes and self._runs.is_known(run, job.plan.digest):
             return run
         self._runs.cancelled.discard(run)  # of an earlier time that it was taken up
         running = self._new(job, run)
         lease = self._step_of(job) if job.within else await self._taken(job, running)
         try:
-            if job.within:
-                require_applicable(job.plan, await self.describe())
-            seen = await self.observe()
-            require_current(self.setup, job.plan, seen)
-            require_allowed(self.setup, job.plan, seen)
-            await self._require_dose(job.plan, seen)
+            seen, able = await self._permitted(job.plan)
             await self._shut_over(seen)
             if not job.within:
-                self._begin(job, run, await self.describe(), lease)
+                self._begin(job, run, able, lease)
         except BaseException:
             if not job.within:
                 await self._leave()
@@ -516,13 +508,14 @@ class LocalEdge:
 
     async def _taken(self, job: Job, running: Running) -> Lease:
         """Take the bench for a run, at its speed; raises PicoError where its plan is not for this bench."""
-        from pico.execution.checks import require_applicable
+        from pico.policy.judging.case import PlanCase
+        from pico.policy.judging.judges import require_permitted
 
         if self._alone is not None:
             self._alone.goes_on(job.holder.removeprefix(f"{RECIPE} "))
         usual, _ = self._usual or (self.setup, None)
         able = replace(await self.describe(), lab_digest=usual.at_speed(job.speed).digest())
-        require_applicable(job.plan, able)
+        require_permitted(PlanCase(self.setup, job.plan, able=able))
 
         def prepare() -> None:
             if (setup := self.setup.at_speed(job.speed)) != self.setup:
@@ -531,6 +524,16 @@ class LocalEdge:
             self.device.watch(running.recording.look if running.recording else None)
 
         return await self._acquire(job.holder, job.wait, running.id, prepare)
+
+    async def _permitted(self, plan: Plan) -> tuple[Observation, Capabilities]:
+        """Return the bench as it is and what it can do, once all judges have let a plan pass; raises PicoError."""
+        from pico.policy.judging.case import PlanCase
+        from pico.policy.judging.judges import require_permitted
+
+        able, seen = await self.describe(), await self.observe()
+        doses = self._doses(seen) if plan.operations else ()
+        require_permitted(PlanCase(self.setup, plan, seen, able, doses))
+        return seen, able
 
     def _step_of(self, job: Job) -> Lease:
         """Return the lease of the open run that a job is a step of; raises PicoError where that can't begin now."""
@@ -551,14 +554,12 @@ class LocalEdge:
     async def open(self, job: Job, run: str) -> Lease:
         """Take the bench and begin a run that stays open; see `pico.edge.protocol.Edge`."""
         from pico.edge.open_run import OpenRun
-        from pico.execution.checks import require_current
 
         lease = await self._taken(job, self._new(job, run))
         try:
-            seen = await self.observe()
-            require_current(self.setup, job.plan, seen)
+            seen, able = await self._permitted(job.plan)
             await self._shut_over(seen)
-            self._begin(job, run, await self.describe(), lease)
+            self._begin(job, run, able, lease)
         except BaseException:
             await self._leave()
             raise

@@ -15,7 +15,7 @@ from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by
 from pico.model.plan import Plan
 from pico.model.setup import Setup
-from pico.model.state import goals_of, place_of, state_from_json
+from pico.model.state import goals_of, place_of
 from pico.model.trace.event import Event
 from pico.model.trace.expectation import Expected, GoalRead, goal_read
 from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
@@ -124,7 +124,7 @@ def _aligning(plan: Plan, events: Sequence[Event]) -> float | None:
 
 def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tuple[Change, ...]:
     """Return what still differs from the goal beyond tolerance; of one operation, only what it was to change."""
-    wanted = state_from_json(plan.lab.name, plan.target.state)
+    wanted = plan.target_state
     asked = {(c.component, c.tunable) for c in plan.changes}
     return tuple(
         change
@@ -136,7 +136,7 @@ def _remaining(setup: Setup, plan: Plan, seen: Observation, whole: bool) -> tupl
 
 def _excepted(setup: Setup, plan: Plan, seen: Observation) -> tuple[Change, ...]:
     """Return what differs from the goal and does not count: light that is asked for, and values kept by alignment."""
-    wanted = state_from_json(plan.lab.name, plan.target.state)
+    wanted = plan.target_state
     return tuple(c for c in diff_observed(setup, seen, wanted) if c.aligned or (c.requested and not c.tolerated))
 
 
@@ -154,7 +154,7 @@ def _later(plan: Plan, events: Sequence[Event]) -> Iterator[Diagnostic]:
 
 def _beyond_trim(setup: Setup, plan: Plan, seen: Observation, met: Collection[str]) -> Iterator[Diagnostic]:
     """Yield what a goal that was `met` in a run found beyond its trim: its part was probably put down badly."""
-    for change in diff_observed(setup, seen, state_from_json(plan.lab.name, plan.target.state)) if met else ():
+    for change in diff_observed(setup, seen, plan.target_state) if met else ():
         kind = setup.type_of(change.component).tunables.get(change.tunable)
         if kind is None or change.aligned is None or change.aligned.goal not in met:
             continue
@@ -175,7 +175,7 @@ def _by_light(plan: Plan, events: Sequence[Event]) -> tuple[str, ...]:
     said = {d.address for d in plan.diagnostics if d.code == "by-light"}
     if plan.asked:
         return tuple(address for address in sorted(said) if address not in met)
-    goals = goals_of(state_from_json(plan.lab.name, plan.target.state))
+    goals = goals_of(plan.target_state)
     unmet = [of for name, of in goals.items() if name not in met and said & of.keys()]
     return tuple(address for of in unmet for address in of)
 
@@ -183,7 +183,7 @@ def _by_light(plan: Plan, events: Sequence[Event]) -> tuple[str, ...]:
 def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
     """Return what differs from the goal of a plan for some components, and was left alone: components, and single
     tunables (`p1.pose`) of those of which others were asked for."""
-    wanted = state_from_json(plan.lab.name, plan.target.state)
+    wanted = plan.target_state
     asked = {(c.component, c.tunable) for c in plan.changes}
     parts = {component for component, _ in asked}
     rest = [c for c in drift_of(setup, seen, wanted) if not c.tolerated]
@@ -194,7 +194,7 @@ def _left(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
 def _absent(setup: Setup, plan: Plan, seen: Observation) -> tuple[str, ...]:
     """Return the components that do not stand where they are seen, or not surely; of those that the goal does not name
     those that lie or are held, for these nobody sees at home."""
-    wanted = state_from_json(plan.lab.name, plan.target.state)
+    wanted = plan.target_state
     found = []
     for name in sorted(setup.lab.inventory):
         part = seen.components.get(name) or ObservedComponent(presence="missing")

@@ -10,9 +10,9 @@ from typing import Any, Literal
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
-from pico.model.record import Document, Format, as_json, canonical, digest, record
+from pico.model.record import Document, Format, as_json, canonical, digest, record, remembered
 from pico.model.shown.html import table
-from pico.model.state import Expectation
+from pico.model.state import Expectation, LabState, state_from_json
 
 FORMAT = Format("pico.plan")
 AUDIT = "beam-audit"
@@ -21,6 +21,11 @@ UNARMED = "unarmed"
 """The same of light that nobody lets out."""
 DOSE = "dose"
 """The same of light that a sample must not have any more."""
+
+
+@remembered
+def _state_of(data: Mapping[str, Any], lab: str) -> LabState:
+    return state_from_json(lab, data)
 
 
 @record
@@ -152,6 +157,16 @@ class Plan:
     blocking: tuple[Blocking, ...] | None = None
     bench: str | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    @property
+    def base_state(self) -> LabState:
+        """The state that it starts from, read once however often it is asked for."""
+        return _state_of(self.base.state, self.lab.name)
+
+    @property
+    def target_state(self) -> LabState:
+        """The state that it leads to, read once however often it is asked for."""
+        return _state_of(self.target.state, self.lab.name)
 
     @property
     def errored(self) -> bool:

@@ -11,7 +11,7 @@ from pico.model.observation import Observation, with_value
 from pico.model.operation import Operation, Reason, searched_by
 from pico.model.plan import Plan
 from pico.model.setup import Setup
-from pico.model.state import LabState, state_from_json
+from pico.model.state import LabState
 from pico.motion.types import Motion
 from pico.planning.checks.interlocks import policy_rules
 from pico.planning.foreseen import foreseen
@@ -70,7 +70,7 @@ def again(
             given = {**op.arguments, "again": key} if op.primitive == "optimize" else op.arguments
             out.append(replace(op, arguments=given, after=tuple(dict.fromkeys((*waits, *op.after)))))
     timed, tuned = schedule(out), {address for cut in sought.values() for address in searched_by(cut.arguments)}
-    wanted = _without(state_from_json(plan.lab.name, plan.target.state), tuned)  # these have their last word by light
+    wanted = _without(plan.target_state, tuned)  # these have their last word by light
     return replace(
         plan, operations=timed, makespan=makespan(timed), policy=policy_rules(setup, seen, timed),
         target=replace(plan.target, state=wanted.as_json()),

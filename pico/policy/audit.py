@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import product
+from threading import Lock
 from typing import Any
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.diagnostics import Diagnostic
 from pico.model.observation import Observation
 from pico.model.operation import Operation, searched_by
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
+from pico.model.record import as_json, digest
 from pico.model.setup import Setup
-from pico.model.state import LabState, place_of, state_from_json
+from pico.model.state import LabState, place_of
 from pico.optics.audit.findings import Audit, Finding, told
 from pico.optics.audit.lasers import laser_class, lasers_of, unread_power
 from pico.optics.audit.limits import above_class_2
@@ -39,15 +42,39 @@ class Lit:
     enclosed: bool = False
 
 
-Judge = Callable[[Setup, Lit], Audit | None]
+Tracing = Callable[[Setup, Lit], Audit | None]
 """Tells the verdict on a bench; None where nobody knows it yet, and it is not worth finding out."""
+VERSION = 1
+"""Of the rules of the audit; a verdict by others is not believed."""
+MOST = 64
+"""So many verdicts stay in memory, the newest."""
+_TRACED: dict[tuple[str, str], Audit] = {}
+_TRACING = Lock()
+
+
+def audit_key(setup: Setup, lit: Lit) -> str:
+    """Return the digest of all that the verdict on a bench with light on it depends on."""
+    return digest([VERSION, setup.digest(), lit.poses, lit.values, lit.lasers])
 
 
 def judge(setup: Setup, lit: Lit) -> Audit:
-    """Return the verdict on a bench with light on it; imports numpy."""
-    from pico.optics.audit.audit import audit
+    """Return the verdict on a bench with light on it; imports numpy.
 
-    return audit(setup, lit.poses, lit.values, lit.lasers)
+    The last verdicts stay in memory, so that the edge of a client in the same process traces no light twice: by every
+    digit, as a digest is of rounded numbers. Nothing of that is read from a disk: an edge believes no file of a client.
+    """
+    key = (setup.digest(), json.dumps(as_json([lit.poses, lit.values, lit.lasers]), sort_keys=True))
+    with _TRACING:  # a client plans in another thread than the edge in its process
+        known = _TRACED.pop(key, None)
+    if known is None:
+        from pico.optics.audit.audit import audit
+
+        known = audit(setup, lit.poses, lit.values, lit.lasers)
+    with _TRACING:
+        _TRACED[key] = known
+        while len(_TRACED) > MOST:
+            del _TRACED[next(iter(_TRACED))]
+    return known
 
 
 def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
@@ -55,7 +82,7 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
 
     What stands within tolerance of where the target wants it counts as there: so the same bench is the same each time.
     """
-    wanted = state_from_json(plan.lab.name, plan.target.state)
+    wanted = plan.target_state
     poses = {n: _settled(setup, wanted, n, c.pose) for n, c in seen.components.items()
              if c.pose is not None and c.presence == "seen" and n in setup.lab.inventory}  # fmt: skip
     known = {n: {**own, **_maybe_on(setup, seen, n)} for n, own in seen.known_values.items()}
@@ -107,7 +134,7 @@ def _set(setup: Setup, wanted: LabState, name: str, own: Mapping[str, Any]) -> d
     return found
 
 
-def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge) -> tuple[Audit, Lit]:
+def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Tracing = judge) -> tuple[Audit, Lit]:
     """Return the verdict on the light of a plan, and the bench that it is about; where no laser shines, nothing is
     traced, nor imported for it. What `judged` does not know is left out."""
     if _dark(setup, plan, seen):
@@ -124,12 +151,6 @@ def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Judge = judge)
     classes = {n: laser_class(setup, n, lit.values.get(n, {}))[0] for n in lit.lasers}
     unsaid = sorted({name for verdict in known for name in verdict.unjudged})
     return Audit(findings=(*findings.values(), *carried), lasers=classes, unjudged=tuple(unsaid)), lit
-
-
-def require_safe(setup: Setup, plan: Plan, seen: Observation) -> None:
-    """Raise PicoError (exit code DENIED) where the audit refuses a plan on the bench as it is now."""
-    if plan.operations and (wrong := [d for d in told_of(plan, *audit_of(setup, plan, seen)) if d.severity == "error"]):
-        raise PicoError(wrong, ExitCode.DENIED)
 
 
 def _dark(setup: Setup, plan: Plan, seen: Observation) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence, Set
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.expressions import ExpressionError, Language, UnknownValue
 from pico.model.observation import Observation
 from pico.model.setup import Setup
@@ -15,7 +15,13 @@ from pico.policy.reaching import reaching
 
 
 def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
-    """Raise PicoError where expressions make no sense on this bench."""
+    """Raise PicoError if an expression makes no sense on this bench."""
+    if found := expression_faults(setup, texts):
+        raise PicoError(found)
+
+
+def expression_faults(setup: Setup, texts: Iterable[str]) -> list[Diagnostic]:
+    """Return an error for each expression that makes no sense on this bench."""
     found = []
     for text in texts:
         try:
@@ -24,8 +30,7 @@ def require_expressions(setup: Setup, texts: Iterable[str]) -> None:
             hint = "it speaks of components, as `expect:` does: `p2.pose.x < 530`, `distance(p1, p2) > 100`"
             caret = " " * exc.start + "^" * (min(exc.end, len(text)) - exc.start)
             found.append(error("expression", f"{exc}", detail=f"{text}\n{caret}", hint=hint))
-    if found:
-        raise PicoError(found)
+    return found
 
 
 def check_expectations(

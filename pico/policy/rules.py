@@ -2,49 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import replace
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, error
 from pico.expressions import ExpressionError, Language, UnknownValue, words_of
 from pico.model.lab import PolicyRule
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.model.vocabulary import POLICY_NAMES, functions_of, names_of, shown, spoken_of, values_of
-from pico.policy.audit import audit_of
+from pico.optics.audit.findings import Audit
 from pico.policy.context import policy_values
 from pico.policy.reaching import reaching
 
 _NOBODY = "nothing tells whether somebody is at the table"
 
 
-def judged(setup: Setup, plan: Plan, seen: Observation) -> Plan:
-    """Return the plan with the verdict of each rule in its `policy`, sealed anew; none for a plan that does nothing."""
-    if not setup.lab.policy.rules or not plan.operations:
-        return plan
-    own = tuple(entry for entry in plan.policy if "level" not in entry)
-    return replace(plan, policy=(*verdicts(setup, plan, seen), *own)).sealed()
+def denials(found: Iterable[Mapping[str, Any]]) -> tuple[Diagnostic, ...]:
+    """Return an error for each verdict on a mandatory rule that does not hold."""
+    return tuple(_denied(one) for one in found if not one["holds"] and one["level"] == "mandatory")
 
 
-def require_allowed(setup: Setup, plan: Plan, seen: Observation) -> None:
-    """Raise PicoError (exit code DENIED) where a mandatory rule does not hold of a plan on the bench as it is now."""
-    if setup.lab.policy.rules and plan.operations:
-        found = [_denied(v) for v in verdicts(setup, plan, seen) if not v["holds"] and v["level"] == "mandatory"]
-        if found:
-            raise PicoError(found, ExitCode.DENIED)
-
-
-def verdicts(setup: Setup, plan: Plan, seen: Observation) -> tuple[Mapping[str, Any], ...]:
-    """Return for each rule of the lab `rule` (its name), `level`, `holds` and, where it does not hold, `text`."""
+def verdicts(
+    setup: Setup, plan: Plan, seen: Observation, audited: Callable[[], Audit]
+) -> tuple[Mapping[str, Any], ...]:  # fmt: skip
+    """Return for each rule of the lab `rule` (its name), `level`, `holds` and, if it does not hold, `text`. `audited`
+    returns the verdict on the light of the plan, for rules that speak of it."""
     rules = setup.lab.policy.rules
     spoken = [n for n in spoken_of(setup, (rule.that for rule in rules)) if n not in POLICY_NAMES]
     values, unknown = values_of(setup, seen, spoken)
     words = words_of(rule.that for rule in rules)
     values |= policy_values(setup, plan, seen, words)
     if "audit" in words:
-        audit, _ = audit_of(setup, plan, seen)
+        audit = audited()
         values["audit"] = {"passes": audit.passes, "findings": [f.text for f in audit.findings]}
     if seen.person is not None:
         values["human_present"] = seen.person

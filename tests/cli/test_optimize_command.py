@@ -415,7 +415,7 @@ def test_the_list_of_goals_and_the_line_of_a_teleoperation_fit_a_narrow_terminal
         monkeypatch.setattr(view, "wide", lambda *_: 80, raising=False)
     one = Goal(tunables={"ly_150.stage_y": (-1, 1), "ly_150.stage_z": (-1, 1)}, minimize="cam.power",
                description="the spot in the middle of the camera, by the stages of ly_150 and no other")  # fmt: skip
-    from pico.bench.aligned import Alignment
+    from pico.planning.alignment import Alignment
 
     text = goals.text({"ly_150_centred": one}, [Alignment("ly_150_centred", "never measured")], takes())
     assert all(len(style.plain(line)) <= 80 for line in text.splitlines()) and "ly_150 and no other" in text

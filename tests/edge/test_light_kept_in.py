@@ -22,7 +22,9 @@ from pico.model.commissioning import FILES, Basis
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
+from pico.optics.audit.findings import Audit, Finding
 from pico.policy import audit
+from pico.policy.audit import Lit
 
 NOON, ONE, EVENING, NIGHT = (f"2026-11-24T{hour}:00:00Z" for hour in ("12", "13", "18", "22"))
 ROLES = {"user": LaserRole(people=("Ada",), laser_class="3B", hours=8.0)}
@@ -361,13 +363,13 @@ def test_light_passes_where_it_is_licensed_stated_and_where_no_plan_asks_for_it_
     seen = observed({"laser": by[licence]} if licence else None, laser=laser)
     audited = list[Operation]()
 
-    def require_safe(setup: Setup, plan: Any, at: Observation) -> None:
+    def audit_of(setup: Setup, plan: Any, at: Observation, *_: Any) -> tuple[Audit, Lit]:
         audited.extend(plan.operations)
         assert at is seen
-        if not safe:
-            raise PicoError(error("beam-audit", "it ends on a wall"), ExitCode.DENIED)
+        found = Finding(kind="end", source="laser", laser_class="3R", way=(), where="a wall", power=4.0, limit=0.39)
+        return Audit(findings=() if safe else (found,), lasers={}), Lit({}, {}, ("laser",), frozenset({"laser"}))
 
-    monkeypatch.setattr(audit, "require_safe", require_safe)
+    monkeypatch.setattr(audit, "audit_of", audit_of)
 
     async def look() -> Observation:
         return seen

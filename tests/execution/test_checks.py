@@ -7,11 +7,10 @@ from typing import Any
 
 import pytest
 from benches import shel
+from judged import require_applicable, require_current
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import ExitCode, PicoError
-from pico.execution.checks import require_applicable, require_current
-from pico.execution.stale import differing, edited
 from pico.model.observation import (
     Observation,
     ObservedComponent,
@@ -25,6 +24,7 @@ from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.state import home_state, place_of
+from pico.policy.freshness import differing, edited
 
 SETUP, _ = shel("gantry")
 HOME = {n: place_of(SETUP, home_state(SETUP), n)[1] for n in SETUP.lab.inventory}
@@ -104,7 +104,7 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
         primitives=frozenset({"move"}), robots=("arm1",),
     )  # fmt: skip
     made = plan(move(HOME["p2"], AWAY))
-    require_applicable(made, able)
+    require_applicable(SETUP, made, able)
     for change, said in (
         ({"name": "hardware"}, "this plan was made for the bench `sim`, and this is `hardware`"),
         ({"fidelity": "physics"}, "the plan was made for kinematic, and this bench is served in physics"),
@@ -112,10 +112,10 @@ def test_a_plan_is_for_one_backend_with_its_robots_and_primitives() -> None:
         ({"robots": ()}, "the plan needs the robot arm1; sim has: none"),
     ):
         with pytest.raises(PicoError, match=r".") as caught:
-            require_applicable(made, replace(able, **change))
+            require_applicable(SETUP, made, replace(able, **change))
         assert [d.summary for d in caught.value.diagnostics] == [said]
     with pytest.raises(PicoError, match="were edited since") as caught:
-        require_applicable(made, replace(able, lab_digest="other"))
+        require_applicable(SETUP, made, replace(able, lab_digest="other"))
     assert caught.value.exit_code == ExitCode.STALE
 
 
@@ -127,7 +127,7 @@ def test_what_the_simulator_can_not_measure_is_told_by_what_is_missing(measurabl
     )  # fmt: skip
     made = plan(replace(move(HOME["p2"], AWAY), primitive="measure", arguments={"measurable": measurable}))
     with pytest.raises(PicoError, match=said):
-        require_applicable(made, able)
+        require_applicable(SETUP, made, able)
 
 
 def test_a_plan_of_another_lab_is_stale() -> None:

@@ -8,10 +8,10 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from judged import require
 from laser_lab import POSES, STRONGEST, UNKNOWN, bench, carry, commanded, observed, search, set_to, with_type
 
 from pico.diagnostics import ExitCode, PicoError
-from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
@@ -215,24 +215,28 @@ def test_a_finding_says_what_draws_it(target: Any, drawn: str) -> None:
 
 
 def test_a_plan_that_opens_a_dangerous_beam_is_denied_and_an_empty_one_never(monkeypatch: pytest.MonkeyPatch) -> None:
-    def judged(setup: Setup, plan: Plan, seen: Observation) -> tuple[Audit, Lit]:
+    def judged(*_: Any) -> tuple[Audit, Lit]:
         return Audit(findings=found, lasers={}), Lit({}, {}, ("laser",), frozenset({"laser"}))
 
     monkeypatch.setattr(audit, "audit_of", judged)
     found = (finding(),)
     with pytest.raises(PicoError, match="is not safe") as caught:
-        audit.require_safe(SETUP, plan(OPEN), observed())
+        require("beams", SETUP, plan(OPEN), observed())
     assert caught.value.exit_code == ExitCode.DENIED and len(caught.value.diagnostics) == 1
-    audit.require_safe(SETUP, plan(), observed())
     found = (finding(of="2"), finding("second"))
-    audit.require_safe(SETUP, plan(OPEN), observed())
+    require("beams", SETUP, plan(OPEN), observed())
+    monkeypatch.undo()
+    away = observed(laser=LIT, without=("cam",))
+    with pytest.raises(PicoError, match="leaves the table"):
+        require("beams", SETUP, plan(OPEN), away)
+    require("beams", SETUP, plan(), away)
 
 
 def test_the_laser_of_the_bench_is_judged_by_its_light() -> None:
     with pytest.raises(PicoError, match="leaves the table"):
         away = observed(laser={"power": 4.0}, without=("cam",))
-        audit.require_safe(SETUP, plan(OPEN), away)
-    audit.require_safe(SETUP, plan(OPEN), observed(laser={"power": 0.1}))
+        require("beams", SETUP, plan(OPEN), away)
+    require("beams", SETUP, plan(OPEN), observed(laser={"power": 0.1}))
 
 
 # what is searched

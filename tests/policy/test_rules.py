@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from judged import require, with_rules
 
 from pico.diagnostics import ExitCode, PicoError
 from pico.manifest.load import load_folder
@@ -16,7 +17,6 @@ from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.policy.beams import open_beams
-from pico.policy.rules import judged, require_allowed
 from pico.resources import labs_dir
 
 WHY = Reason(kind="changed")
@@ -65,7 +65,7 @@ def plan(setup: Setup, *operations: Operation) -> Plan:
 
 def verdict(that: str, *operations: Operation, person: bool | None = False, **values: ObservedValue) -> Any:
     setup = shel(PolicyRule(name="r", that=that))
-    found = judged(setup, plan(setup, *(operations or (move(),))), seen(setup, person, **values))
+    found = with_rules(setup, plan(setup, *(operations or (move(),))), seen(setup, person, **values))
     return found.policy[0]
 
 
@@ -111,20 +111,20 @@ def test_somebody_at_the_table_is_seen_and_nobody_telling_denies() -> None:
 def test_only_a_mandatory_rule_keeps_a_plan_from_being_run() -> None:
     for level, denied in (("mandatory", True), ("advisory", False)):
         setup = shel(PolicyRule(name="light", that="operations.all(o, o.mass < 0.1)", level=level, message="too heavy"))
-        found = judged(setup, plan(setup, move()), seen(setup))
+        found = with_rules(setup, plan(setup, move()), seen(setup))
         assert found.denied is denied
         assert found.digest == found.sealed().digest
         if denied:
             with pytest.raises(PicoError, match="light: too heavy") as caught:
-                require_allowed(setup, found, seen(setup))
+                require("rules", setup, found, seen(setup))
             assert caught.value.exit_code == ExitCode.DENIED
         else:
-            require_allowed(setup, found, seen(setup))
+            require("rules", setup, found, seen(setup))
 
 
 def test_a_plan_that_does_nothing_needs_no_permission() -> None:
     setup = shel(PolicyRule(name="never", that="false"))
-    assert judged(setup, plan(setup), seen(setup)).policy == ()
+    assert with_rules(setup, plan(setup), seen(setup)).policy == ()
 
 
 def test_a_zone_that_a_goal_would_stand_in_is_named() -> None:
@@ -135,7 +135,7 @@ def test_a_zone_that_a_goal_would_stand_in_is_named() -> None:
     zones = {"vent": KeepOut(area=there), "far": KeepOut(area=Box2(x=(0, 9), y=(0, 9)))}
     zones |= {"lamp": KeepOut(area=there, z=(300, 400))}
     setup = replace(setup, lab=replace(setup.lab, keep_out=zones))
-    assert judged(setup, plan(setup, move()), seen(setup)).policy[0]["holds"]
+    assert with_rules(setup, plan(setup, move()), seen(setup)).policy[0]["holds"]
 
 
 @pytest.mark.parametrize(("operations", "values", "opened"), [

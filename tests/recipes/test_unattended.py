@@ -163,8 +163,8 @@ def test_who_sees_nothing_stops(bench: Bench, night: list[datetime]) -> None:
 
 
 def test_a_lost_goal_stops_it(bench: Bench, night: list[datetime], monkeypatch: pytest.MonkeyPatch) -> None:
-    from pico.bench.aligned import Alignment
     from pico.bench.goals import Goals
+    from pico.planning.alignment import Alignment
 
     lost = Alignment("ly_150_centred", "lost", "somebody moved it")
     monkeypatch.setattr(Goals, "alignments", lambda self: (lost,))

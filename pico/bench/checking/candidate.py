@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.execution.stale import edited
 from pico.history.lab.missing_files import missing_files
 from pico.history.merge.checked import overlapping
 from pico.history.merge.doubts import unsettled
@@ -18,6 +17,7 @@ from pico.manifest.folders import expression_errors
 from pico.manifest.load import Manifests, load_files
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
+from pico.policy.freshness import edited
 
 
 @dataclass(frozen=True)

@@ -96,16 +96,14 @@ def feasible(plan: Plan) -> Check:
 
 def policy(case: Case, plan: Plan) -> tuple[Check, tuple[Mapping[str, Any], ...]]:
     """Return whether the rules of the lab hold of a plan, and the beam audit; and what became of each rule."""
-    from pico.policy.audit import audit_of, told_of
+    from pico.policy.judging.case import PlanCase
+    from pico.policy.judging.judges import judgment_of
 
     rules = case.setup.lab.policy.rules if plan.operations else ()
-    judged: tuple[Mapping[str, Any], ...] = ()
-    if rules:
-        from pico.policy.rules import verdicts
-
-        judged = verdicts(case.setup, plan, case.seen)
+    before_judges = PlanCase(case.setup, plan, case.seen)
+    judged = judgment_of("rules", before_judges).rules or ()
     broken = tuple(_broken(rule) for rule in judged if not rule["holds"])
-    light = told_of(plan, *audit_of(case.setup, plan, case.seen)) if plan.operations else ()
+    light = judgment_of("beams", before_judges).diagnostics if plan.operations else ()
     none = "nothing moves" if case.setup.lab.policy.rules else "the lab has no rules"
     text = f"{len(judged) - len(broken)} of {len(judged)} rules hold" if rules else none
     denied = any(d.severity == "error" for d in (*broken, *light))

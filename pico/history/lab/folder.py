@@ -12,7 +12,6 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.execution.stale import edited as edited_lab
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
 from pico.history.lab.files import write_file
@@ -32,6 +31,7 @@ from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 from pico.places.lab import own_folder
+from pico.policy.freshness import edited as edited_lab
 
 if TYPE_CHECKING:
     from pico.edge.network.remotes import Place

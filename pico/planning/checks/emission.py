@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
+from pico.diagnostics import Diagnostic, error, warning
 from pico.model.arming import LaserClass, within
 from pico.model.observation import Observation
 from pico.model.operation import Operation, searched_by
@@ -180,12 +180,6 @@ def emits_alone(seen: Observation, laser: str, of: LaserClass, most: LaserClass)
         return []
     text, hint = f"{licence.by} armed {laser} as one who is there", f"`pico laser arm {laser} --unattended`"
     return [error("unattended", text, hint=hint, address=laser)]
-
-
-def require_licensed(setup: Setup, seen: Observation, operations: Sequence[Operation]) -> None:
-    """Raise PicoError (exit code DENIED) where operations let light out of a laser and nobody lets it."""
-    if found := refused(setup, seen, operations):
-        raise PicoError(found, ExitCode.DENIED)
 
 
 def left_shut(seen: Observation, lasers: Mapping[str, LaserClass]) -> tuple[Diagnostic, ...]:

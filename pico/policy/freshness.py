@@ -6,31 +6,43 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, error
 from pico.model.address import Renaming, renamed_keys, renaming_between
 from pico.model.diff import Change, diff_observed, show_value, value_distance
 from pico.model.lab import Lab
 from pico.model.observation import Observation, doubtful, slot_at
 from pico.model.plan import Plan
-from pico.model.pose import angle_between
+from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
 from pico.model.setup import Setup
-from pico.model.state import LabState, place_of, state_from_json
+from pico.model.state import LabState, place_of
 
 MOST_PATHS = 6
 """So many differences of a lab are named."""
 
 
-def require_fresh(setup: Setup, plan: Plan, seen: Observation) -> None:
-    """Raise PicoError (exit code STALE), saying what changed, where the bench is not as the plan assumes.
+def staleness(setup: Setup, plan: Plan, seen: Observation) -> list[Diagnostic]:
+    """Return what is not any more as `plan` assumes, saying what moved and by how much; empty for a plan that fits.
+
+    The first that differs counts: the lab, the state that the plan starts from, a part that is to be picked: it must
+    stand where the plan picks it, within its tolerance, slot or not.
+    """
+    return changes_since(setup, plan, seen) or list(_moved(setup, plan, seen))
+
+
+def changes_since(setup: Setup, plan: Plan, seen: Observation) -> list[Diagnostic]:
+    """Return what changed if the lab or the bench is not as the plan assumes.
 
     A tunable counts as changed beyond its tolerance: |observed - base| > tolerance.
     """
     if plan.lab.digest != setup.digest():
-        raise PicoError(stale("", "the lab or its component types were edited since"), ExitCode.STALE)
-    changed = _changed(setup, state_from_json(plan.lab.name, plan.base.state), seen)
-    if changed:
-        raise PicoError(changed, ExitCode.STALE)
+        return [lab_edited()]
+    return _changed(setup, plan.base_state, seen)
+
+
+def lab_edited() -> Diagnostic:
+    """Return the diagnostic that a plan is of another lab than the bench's."""
+    return stale("", "the lab or its component types were edited since")
 
 
 def stale(address: str, summary: str) -> Diagnostic:
@@ -97,6 +109,26 @@ def _changed(setup: Setup, base: LabState, seen: Observation) -> list[Diagnostic
         if name not in base.components and name in seen.components and seen.components[name].presence == "seen"
     )  # fmt: skip
     return found + [stale(name, f"{name} was not seen then and is now") for name in appeared]
+
+
+def _moved(setup: Setup, plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
+    checked = set()
+    for op in plan.operations:
+        if not op.kind.carries or op.component in checked:
+            continue
+        checked.add(op.component)
+        part, start = seen.components.get(op.component), Pose(**op.arguments["from"]["pose"])
+        if part is None or part.pose is None or op.component not in setup.lab.inventory:
+            yield stale(op.component, f"{op.component} is not on the table")
+            continue
+        hand = seen.robots[op.robot].holding if op.robot and op.robot in seen.robots else None
+        if bool(op.arguments["from"].get("held")) != (hand == op.component):
+            yield stale(op.component, f"{op.robot} holds {hand or 'nothing'}")
+            continue
+        tolerance = setup.type_of(op.component).pose.tolerance
+        away, turned = part.pose.distance(start), abs(angle_between(start.yaw, part.pose.yaw))
+        if away > tolerance.position or turned > tolerance.yaw:
+            yield stale(op.component, f"{op.component} was moved by {away:.3g} mm and {turned:.3g}° from {start}")
 
 
 def _doubt(setup: Setup, change: Change, base: LabState, seen: Observation) -> bool:

@@ -7,12 +7,11 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
+from judged import require, require_applicable, require_current
 from laser_lab import POSES, STRONGEST, UNKNOWN, bench, carry, commanded, observed, set_to, with_type
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
-from pico.execution.checks import require_able, require_allowed, require_applicable, require_current
-from pico.execution.stale import edited, require_fresh
 from pico.model.arming import Licence
 from pico.model.lab import Part, PolicyRule
 from pico.model.observation import (
@@ -29,7 +28,11 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import Expectation
+from pico.optics.audit.findings import Audit, Finding
 from pico.policy import audit
+from pico.policy.audit import Lit
+from pico.policy.capability import require_able
+from pico.policy.freshness import changes_since, edited
 
 SETUP = bench()
 
@@ -58,6 +61,16 @@ def refused(check: Any, *given: Any) -> tuple[int, list[str]]:
     return int(caught.value.exit_code), [d.code for d in caught.value.diagnostics]
 
 
+def require_fresh(setup: Setup, made: Plan, seen: Observation) -> None:
+    if changed := changes_since(setup, made, seen):
+        raise PicoError(changed, ExitCode.STALE)
+
+
+def require_allowed(setup: Setup, made: Plan, seen: Observation) -> None:
+    for judge in ("expectations", "licenses", "beams", "rules"):
+        require(judge, setup, made, seen)
+
+
 # whether it can be executed here
 
 
@@ -70,12 +83,12 @@ def test_a_plan_with_errors_or_of_another_lab_is_not_executed(severity: Any, cod
     )
     here = able() if lab else able(lab_digest="other")
     if severity == "error":
-        exit_code, codes = refused(require_applicable, made, here)
+        exit_code, codes = refused(require_applicable, SETUP, made, here)
         assert codes == [code] and exit_code == (ExitCode.DENIED if code == "beam-audit" else ExitCode.IMPOSSIBLE)
     elif not lab:
-        assert refused(require_applicable, made, here) == (ExitCode.STALE, ["stale"])
+        assert refused(require_applicable, SETUP, made, here) == (ExitCode.STALE, ["stale"])
     else:
-        require_applicable(made, here)
+        require_applicable(SETUP, made, here)
 
 
 @pytest.mark.parametrize("name", ["sim", "hardware"])
@@ -97,9 +110,9 @@ def test_a_plan_is_executed_by_the_bench_that_it_was_made_for_with_all_that_it_n
     wanted += [] if robots else ["capability"]
     if wanted:
         assert refused(require_able, made, here) == (ExitCode.ERROR, wanted)
-        assert refused(require_applicable, made, here) == (ExitCode.ERROR, wanted)
+        assert refused(require_applicable, SETUP, made, here) == (ExitCode.ERROR, wanted)
     else:
-        require_applicable(made, here)
+        require_applicable(SETUP, made, here)
 
 
 def test_what_kernels_make_of_a_picture_needs_the_picture() -> None:
@@ -148,11 +161,11 @@ OPEN = set_to("laser", "shutter", "open")
 def test_licence_audit_rules_and_expectations_each_deny_a_plan(
     licence: Any, safe: bool, rule: str, expects: str, only: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def require_safe(setup: Setup, plan: Plan, seen: Observation) -> None:
-        if not safe:
-            raise PicoError(Diagnostic("error", "beam-audit", "x"), ExitCode.DENIED)
+    def audit_of(*_: Any) -> tuple[Audit, Lit]:
+        found = Finding(kind="end", source="laser", laser_class="3R", way=(), where="x", power=4.0, limit=0.39)
+        return Audit(findings=() if safe else (found,), lasers={}), Lit({}, {}, ("laser",), frozenset({"laser"}))
 
-    monkeypatch.setattr(audit, "require_safe", require_safe)
+    monkeypatch.setattr(audit, "audit_of", audit_of)
     setup = bench(rules=(PolicyRule(name="r", that=rule),) if rule else ())
     expect = (Expectation(that=expects),) if expects else None
     made = plan(OPEN, setup=setup, expect=expect, only=only)
