@@ -29,7 +29,7 @@ async def _telling(port: int, bench: str, key: str, root: Path) -> None:
     from pico.edge.link.server import edge_of
 
     edge = edge_of(BenchPlace(root, "sim"), "kinematic")
-    moment = await edge.moment()
+    moment = await edge.sight.moment()
     whole = scene(edge.setup, moment, numbered(edge.setup, moment)) | {"epoch": 1, "rev": 0}
     async with dialled(port, bench, key) as link:
         asking = asyncio.create_task(_ask(link))

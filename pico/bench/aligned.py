@@ -28,7 +28,7 @@ from pico.planning.optimizing import Turn, seconds
 from pico.planning.sought import algorithm_for, stages
 
 if TYPE_CHECKING:
-    from pico.edge.protocol import Edge
+    from pico.edge.contract import Edge
     from pico.runs.journal import JournalRecord
     from pico.runs.memory import Memory
 

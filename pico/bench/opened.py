@@ -27,7 +27,7 @@ from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.world import World
-    from pico.edge.protocol import Edge
+    from pico.edge.contract import Edge
 
 T = TypeVar("T")
 

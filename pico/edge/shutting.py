@@ -23,8 +23,11 @@ from pico.runs.journal import Journal
 class Emitting(Protocol):
     """What shutting needs of an edge that has its bench."""
 
-    setup: Setup
-    place: BenchPlace
+    @property
+    def setup(self) -> Setup: ...
+
+    @property
+    def place(self) -> BenchPlace: ...
 
     @property
     def journal(self) -> Journal: ...

@@ -51,8 +51,11 @@ GONE = "its client is gone: it was killed, or its link was lost"
 class Held(Protocol):
     """The edge that holds a run, see `pico.edge.local`."""
 
-    setup: Setup
-    place: BenchPlace
+    @property
+    def setup(self) -> Setup: ...
+
+    @property
+    def place(self) -> BenchPlace: ...
 
     async def describe(self) -> Capabilities: ...
     async def observe(self) -> Observation: ...

@@ -145,7 +145,7 @@ class Guard:
         return f"{ends.astimezone(UTC):%Y-%m-%dT%H:%M:%SZ}"
 
     def leave(self, recipe: str, *, moves: bool) -> Left:
-        """Have the edge bring about the end state; see `pico.edge.protocol.Edge.leave`."""
+        """Have the edge bring about the end state; see `pico.edge.contract.EdgeLicensing.leave`."""
         self.stopped = True
         try:
             return self.bench.wait(self.bench.edge.leave(recipe, moves))

@@ -18,8 +18,9 @@ from pico.backends.sim.hand import nudge
 from pico.backends.sim.store import load_world, world_path
 from pico.backends.sim.world import new_world
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.contract import Edge
 from pico.edge.local import LocalEdge
-from pico.edge.protocol import Edge, Lease
+from pico.edge.protocol import Lease
 from pico.model.lab import Policy
 from pico.model.observation import ObservedValue, UnknownObject
 from pico.model.operation import Operation, OperationResult, Reason
@@ -56,7 +57,7 @@ def during(bench: LocalEdge, act: Callable[[Lease], Awaitable[Any]]) -> Any:
 def listening(bench: LocalEdge) -> asyncio.Queue[Event]:
     """Return where the events of the device come from now on."""
     queue: asyncio.Queue[Event] = asyncio.Queue()
-    bench._heard = queue.put_nowait  # type: ignore[method-assign]
+    bench.runs.hear = queue.put_nowait  # type: ignore[method-assign]
     return queue
 
 

@@ -16,10 +16,11 @@ from serving import served
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
-from pico.edge import aligning, armings, local, own_lab
+from pico.edge import aligning, armings, own_lab
+from pico.edge.contract import Edge
 from pico.edge.link import server
-from pico.edge.local import embedded
-from pico.edge.protocol import Edge, Lease
+from pico.edge.local import custody, embedded
+from pico.edge.protocol import Lease
 from pico.history.examples.example import make_example
 from pico.model.arming import Arming
 from pico.model.operation import Operation, Reason
@@ -159,7 +160,7 @@ def test_a_bench_that_is_served_shuts_the_laser_when_the_arming_ends_though_nobo
     with at(lab, clock) as bench:
         bench.wait(bench.edge.arm(arming()))
         assert bench.apply(bench.single("laser", "set", shutter="open")).outcome == "done"
-        assert not bench.edge.arming_over()
+        assert not bench.edge.licensing.arming_over()
         clock.now = EVENING
 
         async def minded() -> None:
@@ -284,8 +285,8 @@ def test_who_leaves_the_role_arms_nothing_any_more(lab: Path) -> None:
 def test_an_optimization_during_which_an_arming_ends_is_left_where_light_was_and_says_so(
     lab: Path, monkeypatch: pytest.MonkeyPatch, goal: tuple[str, ...], after: int
 ) -> None:
-    monkeypatch.setattr(local, "LOOKS", 1)
-    monkeypatch.setattr(local, "OBEYS", 0.0)
+    monkeypatch.setattr(custody, "LOOKS", 1)
+    monkeypatch.setattr(custody, "OBEYS", 0.0)
     clock, told = Clock(), aligning.Aligning._progress
 
     def progress(self: Any, run: Any, ask: Any, reading: Any) -> None:

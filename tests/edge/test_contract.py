@@ -25,11 +25,12 @@ from serving import served
 from pico.bench.bench import Bench
 from pico.bench.running.execution import Execution
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.contract import Edge
 from pico.edge.link import place
 from pico.edge.link.client import RemoteEdge
 from pico.edge.local import LocalEdge
 from pico.edge.network.opening import opened
-from pico.edge.protocol import Edge, Job
+from pico.edge.protocol import Job
 from pico.history.examples.example import example_names, make_example
 from pico.model.observation import live_state
 from pico.model.operation import Operation, Reason

@@ -16,12 +16,13 @@ from serving import served
 
 from pico.bench.bench import Bench
 from pico.diagnostics import ExitCode, PicoError
-from pico.edge import started
+from pico.edge.contract import Edge
 from pico.edge.link import line, place
 from pico.edge.link.client import RemoteEdge
 from pico.edge.link.line import SocketLine
 from pico.edge.link.server import edge_of
-from pico.edge.protocol import Asking, Edge, Job
+from pico.edge.local import started
+from pico.edge.protocol import Asking, Job
 from pico.edge.stopping import ask_to_stop
 from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason

@@ -11,8 +11,9 @@ from typing import Any
 from results import RunResult
 
 from pico.backends.sim.device import SimDevice
+from pico.edge.contract import Edge
 from pico.edge.local import LocalEdge
-from pico.edge.protocol import Edge, Job
+from pico.edge.protocol import Job
 from pico.manifest.load import load_folder
 from pico.model.plan import Plan
 from pico.model.setup import Setup

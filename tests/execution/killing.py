@@ -130,7 +130,7 @@ class InstantDevice:
 def instant(root: Path, table: Table, journal: KilledJournal) -> LocalEdge:
     """Return the edge of an instant device, with the journal that kills."""
     edge = LocalEdge(SETUP, BenchPlace(root, "sim"), lambda _: InstantDevice(table))  # type: ignore[arg-type]
-    edge._remembers._journal = journal
+    edge.apparatus.journals._journal = journal
     return edge
 
 
@@ -178,7 +178,7 @@ async def _settled(bench: LocalEdge, table: Table) -> None:
 
 
 def _check(bench: LocalEdge, table: Table) -> None:
-    for found in bench.settled:
+    for found in bench.custody.settled:
         if (found.outcome == "done") != table.holds(found.operation):
             raise Violation(f"{found.key} is settled as {found.outcome}")
 

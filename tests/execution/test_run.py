@@ -116,13 +116,13 @@ def test_a_part_that_was_turned_in_its_slot_since_is_not_picked_as_planned(bench
 
 
 def test_what_the_backend_says_of_another_run_is_not_told_of_this_one(bench: LocalEdge) -> None:
-    planned, real = asyncio.run(plan_to(bench, C3)), bench._heard
+    planned, real = asyncio.run(plan_to(bench, C3)), bench.runs.hear
 
     def both(event: Event) -> None:
         real(replace(event, run="another", time=1e6))
         real(event)
 
-    bench._heard = both  # type: ignore[method-assign]
+    bench.runs.hear = both  # type: ignore[method-assign]
     result, events = asyncio.run(execute(bench, planned))
     assert {event.run for event in events} == {"r1"}
     assert [event.seq for event in events] == list(range(1, len(events) + 1))
@@ -268,12 +268,12 @@ def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: Lo
     misses = iter([4.0, 1.0, 0.0])
 
     async def go(plan: Plan) -> tuple[RunResult, list[Event]]:
-        real = bench.execute
+        real = bench.custody.execute
 
-        async def clumsy(operation: Operation, key: str, lease: Any) -> Any:
+        async def clumsy(operation: Operation, key: str, lease: Any, *, tidies: bool = False) -> Any:
             session = bench.device._session
             assert session is not None
-            result = await real(operation, key, lease)
+            result = await real(operation, key, lease, tidies=tidies)
             miss = next(misses) if operation.primitive == "move" else 0.0
             if not miss:
                 return result
@@ -281,7 +281,7 @@ def test_a_part_put_down_beside_its_goal_is_placed_again_at_most_twice(bench: Lo
             seen = (await bench.observe()).components["p2"]
             return replace(result, outcome="failed", error=error("misplaced", "p2 is off"), after=seen)
 
-        bench.execute = clumsy  # type: ignore[method-assign]
+        bench.custody.execute = clumsy  # type: ignore[method-assign]
         return await execute(bench, plan)
 
     result, events = asyncio.run(go(planned))

@@ -55,7 +55,7 @@ def night(bench: Bench, monkeypatch: pytest.MonkeyPatch) -> list[datetime]:
     """The clock on the wall, of the recipe and of the edge: the last one counts."""
     times = [datetime(2026, 11, 24, 23, 0)]
     monkeypatch.setattr(guarding, "local_now", lambda: times[-1])
-    monkeypatch.setattr(bench.edge, "now", lambda: f"{times[-1].astimezone(UTC):%Y-%m-%dT%H:%M:%SZ}")
+    monkeypatch.setattr(bench.edge.apparatus, "now", lambda: f"{times[-1].astimezone(UTC):%Y-%m-%dT%H:%M:%SZ}")
     return times
 
 

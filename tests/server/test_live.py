@@ -123,8 +123,8 @@ def test_many_watch_by_one_stream_which_ends_with_the_last(coordinator: Served, 
             while not page.frames:
                 page.hear()
         assert len({page.frames[-1].epoch for page in (one, two, three)}) == 1
-        assert len(edge.edge._listeners) == 1
-    until(lambda: not edge.edge._listeners)
+        assert len(edge.edge.runs._listeners) == 1
+    until(lambda: not edge.edge.runs._listeners)
 
 
 def test_a_page_hears_that_the_edge_is_away_and_that_another_scene_begins(coordinator: Served, edge: Connected) -> None:

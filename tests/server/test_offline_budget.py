@@ -51,7 +51,7 @@ def test_it_goes_on_beyond_the_lease_for_so_long_as_it_declares(
     coordinator: Served, edge: Connected, planned: tuple[Path, Setup, dict[float | None, Plan]],
     said: float | None, past: float, goes_on: bool,
 ) -> None:  # fmt: skip
-    granting, real, asked = edge.uplink.granting, edge.uplink.granting.clock, edge.edge._stops
+    granting, real, asked = edge.uplink.granting, edge.uplink.granting.clock, edge.edge.custody.stops
     times, begun = 0, False
 
     def stops() -> object:
@@ -63,12 +63,12 @@ def test_it_goes_on_beyond_the_lease_for_so_long_as_it_declares(
             granting.clock = lambda: real() + TTL + past
         return asked()
 
-    edge.edge._stops = stops  # type: ignore[assignment, method-assign]
+    edge.edge.custody.stops = stops  # type: ignore[assignment, method-assign]
     with client(coordinator, coordinator.person("anna", "operator@shel")) as anna:
         anna.ask("start", Job(plan=planned[2][said], holder="pico optimize"), "r1")
         begun = True
         until(lambda: edge.edge.memory is not None and edge.edge.memory.document("r1") is not None)
-        until(lambda: not edge.edge.goes_on_with("r1"))
+        until(lambda: not edge.edge.runs.started.goes_on_with("r1"))
     memory = edge.edge.memory
     assert memory is not None
     (end,) = [r for r in memory.records(run="r1") if r.kind == "done" and "algorithm" in r.data.get("data", {})]

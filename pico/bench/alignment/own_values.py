@@ -16,8 +16,8 @@ from pico.model.state import LabState, place_of
 from pico.planning.aligned_values import GoalMet, equal, goals_by_tunable, left_to_light, off_by_goal
 
 if TYPE_CHECKING:
+    from pico.edge.contract import Edge
     from pico.edge.network.remotes import Place
-    from pico.edge.protocol import Edge
     from pico.history.lab.folder import LabFolder
     from pico.runs.memory import Memory
 

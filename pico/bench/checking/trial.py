@@ -26,7 +26,7 @@ from pico.planning.checks.target import Source
 
 if TYPE_CHECKING:
     from pico.bench.running.loop import LoopThread
-    from pico.edge.protocol import Edge
+    from pico.edge.contract import Edge
 
 CALIBRATION = "calibration.json"
 

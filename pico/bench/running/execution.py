@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 
 from pico.bench.running.loop import HEED, LoopThread
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.edge.protocol import Cut, Edge, Job
+from pico.edge.contract import Edge
+from pico.edge.protocol import Cut, Job
 from pico.edge.running import new_run_id
 from pico.model.plan import Plan
 from pico.model.trace.event import Event

@@ -168,7 +168,7 @@ class RemoteWorld:
 
 
 class RemoteEdge:
-    """The edge at the far end of a line; see `pico.edge.protocol.Edge`. Its runs go on without this process."""
+    """The edge at the far end of a line; see `pico.edge.contract.Edge`. Its runs go on without this process."""
 
     def __init__(self, line: Line) -> None:
         self._line = line

@@ -36,7 +36,7 @@ class Server:
 
     def __init__(self, edge: LocalEdge) -> None:
         self._edge = edge
-        edge.served()
+        edge.lock.server = True
         self._path = place.make(edge.place)
         self._answering = Answering(edge)
         self._server: asyncio.Server | None = None
@@ -142,7 +142,7 @@ async def _mind(edge: LocalEdge) -> None:
     """Shut a laser when its arming ends though nobody works here: who takes the bench does so, and who has it."""
     while True:
         await asyncio.sleep(MINDS)
-        if edge.arming_over():
+        if edge.licensing.arming_over():
             with suppress(PicoError):
                 await edge.release(await edge.acquire("the end of an arming"))
 

@@ -25,7 +25,7 @@ async def follow(edge: LocalEdge) -> AsyncIterator[Document]:
     `{"told": "run"}`. Where the bench looks otherwise, by another Lab, it begins anew. Raises PicoError where nobody
     can tell where things are."""
     following = _Following(edge)
-    end = edge.listen(following.hear)
+    end = edge.runs.listen(following.hear)
     try:
         while True:
             for document in await following.look():
@@ -58,7 +58,7 @@ class _Following:
         """Return what is to be told now."""
         loop = asyncio.get_running_loop()
         self._looked = loop.time()
-        setup, moment, told = self._edge.setup, await self._edge.moment(), self._told
+        setup, moment, told = self._edge.setup, await self._edge.sight.moment(), self._told
         if told is None or not telling.drawn_alike(told.setup, setup):
             epoch = secrets.randbits(32)
             self._told, first = await asyncio.to_thread(telling.begun, setup, moment, epoch)

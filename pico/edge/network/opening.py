@@ -12,8 +12,9 @@ from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.backends.device import Capabilities
+    from pico.edge.contract import Edge
     from pico.edge.link.line import Line
-    from pico.edge.protocol import Edge, Holder, OwnLab
+    from pico.edge.protocol import Holder, OwnLab
     from pico.runs.memory import Memory
 
 

@@ -50,7 +50,7 @@ class Uplink:
         """`say`: is told when the line is there, when it is cut, and what hinders the edge. Raises PicoError where the
         edge can't keep what it must."""
         self._edge, self._enrolment, self._answering = edge, enrolment, Answering(edge)
-        self.granting = Granting(edge.place.folder / "gate.sqlite", edge.last_token())
+        self.granting = Granting(edge.place.folder / "gate.sqlite", edge.lock.last_token())
         edge.granted_by(self.granting)
         self._news = asyncio.Event()
         self._asked: dict[int, float] = {}
@@ -287,7 +287,7 @@ class Uplink:
 
     def _ended(self, key: str, name: str, arguments: list[Any], answer: Document) -> None:
         """Write what a command was answered; one that started a run ends with that."""
-        if name == "start" and "value" in answer and self._edge.goes_on_with(answer["value"]):
+        if name == "start" and "value" in answer and self._edge.runs.started.goes_on_with(answer["value"]):
             self._run = (str(answer["value"]), key, arguments[0].within is not None)
             self.granting.declared(offline(self._edge.setup, arguments[0].plan))
         else:
@@ -297,7 +297,7 @@ class Uplink:
 
     async def _over(self) -> None:
         """End the command whose run is over."""
-        if self._run is not None and not self._edge.goes_on_with(self._run[0]):
+        if self._run is not None and not self._edge.runs.started.goes_on_with(self._run[0]):
             (run, key, _), self._run = self._run, None
             self.granting.declared(0.0)
             self.granting.ended(key, {"value": run})
@@ -323,7 +323,7 @@ class Uplink:
                 await asyncio.sleep(1.0)
 
     async def _fence(self) -> None:
-        await self._edge.drain()
+        await self._edge.custody.drain()
         if await self._edge.holder() is None:
             await self._over()
             if self.granting.fence():
@@ -335,7 +335,7 @@ class Uplink:
         self.granting.live = False
         if idle and withdrawn:
             return
-        await self._edge.drain()
+        await self._edge.custody.drain()
         await self._over()
         self._news.set()
         self.wrong = await left_safely(self._edge, "the lease of its bench is over")

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import asyncio
+from collections.abc import AsyncIterator
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 
 if TYPE_CHECKING:
     from pico.edge.running import Running
+    from pico.model.trace.event import Event
+    from pico.model.trace.report import RunReport
+    from pico.twin.snapshot import Snapshot
 
 KNOWN = 32
 """Runs whose events are kept in memory, for who follows them; the journal remembers all."""
@@ -45,3 +50,24 @@ class StartedRuns:
                 error("no-run", f"no run {run} was started here", hint="`pico runs` lists those that are over")
             )
         return self._runs[run]
+
+    def goes_on_with(self, run: str) -> bool:
+        """Return whether a run that was started here goes on."""
+        task = self[run].task if self.knows(run) else None
+        return task is not None and not task.done()
+
+    async def events(self, run: str, since: int = 0) -> AsyncIterator[Event]:
+        """Yield what happened in a run after its event `since`, and what happens."""
+        async for event in self[run].events(since):
+            yield event
+
+    async def report(self, run: str) -> RunReport:
+        """Wait for the end of a run, and return what became of it; raises PicoError for what cut it short."""
+        task = self[run].task
+        assert task is not None  # it is known from then on
+        return await asyncio.shield(task)
+
+    def film(self, run: str) -> list[Snapshot]:
+        """Return what a film of a run shows; empty for one that was not filmed."""
+        recording = self[run].recording
+        return recording.snapshots if recording else []

@@ -1,0 +1,66 @@
+"""What an edge works on: the device of a bench, the setup that it was opened for, and the journal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from pico.backends.device import Capabilities, Device
+from pico.edge.remembering import Remembering
+from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
+
+
+class Apparatus:
+    """The bench at `place`. `opening` opens the device of a setup; `clock` gives the wall time as ISO 8601, UTC."""
+
+    def __init__(
+        self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], clock: Callable[[], str]
+    ) -> None:
+        self.setup, self.place, self.device = setup, place, opening(setup)
+        self.now, self.journals = clock, Remembering(place, clock)
+        self._opening = opening
+        self._usual: tuple[Setup, Device] | None = None
+
+    @property
+    def usual(self) -> Setup:
+        """The setup of the bench at its own speed, whatever speed a run goes at."""
+        return self._usual[0] if self._usual is not None else self.setup
+
+    @property
+    def has_samples(self) -> bool:
+        """Whether a part of the bench holds a sample, whose light is counted."""
+        return any(part.sample for part in self.setup.lab.inventory.values())
+
+    async def describe(self) -> Capabilities:
+        """Return what the device can do, at the speed of the run that goes on."""
+        from pico.teleop.frames import STEPS
+
+        able = await self.device.describe()
+        whole = {"set", "measure"} <= able.primitives
+        primitives = able.primitives | ({"optimize", "verify", "survey"} if whole else set())
+        if able.primitives >= STEPS:
+            primitives = primitives - STEPS | {"teleoperate"}
+        return replace(able, primitives=primitives, kept=self.device.kept())
+
+    def become(self, setup: Setup) -> None:
+        """Work on another bench from now on: the Lab was changed."""
+        self.setup, self.device = setup, self._opening(setup)
+
+    def go_at(self, speed: float | None) -> None:
+        """Have every robot at a share of its joint limits until `go_as_usual`; None: as the lab says."""
+        if (setup := self.setup.at_speed(speed)) != self.setup:
+            self._usual = self.setup, self.device
+            self.setup, self.device = setup, self._opening(setup)
+
+    def go_as_usual(self) -> None:
+        """Have the device that was there before `go_at`."""
+        if self._usual is not None:
+            (self.setup, self.device), self._usual = self._usual, None
+
+    def require_kept(self) -> None:
+        """Raise PicoError if a simulated world is gone, and the journal says that it was moved."""
+        if not self.device.kept() and self.journals.path.exists():
+            from pico.edge.recovery import require_unmoved
+
+            require_unmoved(self.journals.path)

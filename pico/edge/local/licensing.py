@@ -1,0 +1,172 @@
+"""What an edge lets emit: armings and their end, the light that samples had, and runs that nobody attends."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import replace
+from typing import TYPE_CHECKING, Protocol
+
+from pico.diagnostics import Diagnostic, ExitCode, PicoError
+from pico.edge.local.apparatus import Apparatus
+from pico.edge.local.sight import Sight
+from pico.edge.protocol import UNATTENDED, Holder, Lease
+from pico.model.observation import Observation
+from pico.places.attachment import require_attached
+
+if TYPE_CHECKING:
+    from pico.edge.armings import Kept
+    from pico.edge.attempts import Executing
+    from pico.edge.shutting import Emitting, Shutting
+    from pico.edge.unattended import Alone, Held
+    from pico.model.arming import Arming
+    from pico.model.trace.dose import Dose
+    from pico.model.trace.unattended import Left, Terms
+
+    class Acting(Emitting, Held, Protocol):
+        """The whole edge, for what acts on the bench as a client does: shuts a laser, ends a run."""
+
+        @property
+        def lease(self) -> Lease | None:
+            """The lease of who has the bench through this edge."""
+            ...
+
+        async def holder(self) -> Holder | None: ...
+
+
+SHUT_WITHIN = 150
+"""So often is looked whether who has the bench has shut a laser that was disarmed."""
+AGAIN = 0.02
+"""Seconds of wall time between two such looks."""
+
+
+class Licensing:
+    """Keeps armings of one bench, shuts what nothing lets emit any more, and counts the light on samples."""
+
+    def __init__(self, apparatus: Apparatus, sight: Sight, edge: Acting) -> None:
+        self._apparatus, self._sight, self._edge = apparatus, sight, edge
+        self._lasers: Shutting | None = None
+        self._alone: Alone | None = None
+        self._minded = frozenset[tuple[str, str]]()
+
+    async def armings(self) -> tuple[Kept, ...]:
+        """Return what the bench keeps of armings, broken ones, too."""
+        from pico.edge.armings import kept
+
+        return kept(self._apparatus.place)
+
+    async def arm(self, arming: Arming) -> Arming:
+        """Keep an arming, see `pico.edge.contract.EdgeLicensing`."""
+        from pico.edge.armings import keep
+        from pico.edge.emission import require_commissioned
+        from pico.policy.arming import refusal
+
+        own = self._apparatus
+        require_attached(own.place)
+        given = replace(arming, backend=(await own.device.describe()).name)
+        if wrong := refusal(own.setup, given, own.now()):
+            raise PicoError(wrong, ExitCode.DENIED)
+        await require_commissioned(own.setup, own.place, own.device, own.now(), given)
+        keep(own.place, given)
+        return given
+
+    async def disarm(self, laser: str, by: str) -> bool:
+        """End what arms a laser, and shut it; see `pico.edge.contract.EdgeLicensing`."""
+        from pico.edge.armings import keep
+        from pico.policy.arming import ended
+
+        own, edge = self._apparatus, self._edge
+        require_attached(own.place)
+        now, known = own.now(), {one.laser: one.arming for one in await self.armings()}
+        keep(own.place, ended(own.setup, known.get(laser), laser, by, (await own.device.describe()).name, now))
+        for _ in range(SHUT_WITHIN):
+            if edge.lease is None and await edge.holder() is None:
+                with suppress(PicoError):  # who takes the bench next shuts it, or has it and does
+                    await edge.release(await edge.acquire("pico laser disarm"))
+            if laser not in {one.laser for one in await self.armings()}:
+                return True
+            await asyncio.sleep(AGAIN)
+        return False
+
+    def arming_over(self) -> bool:
+        """Return whether an arming has ended since this was asked last, while nobody has the bench."""
+        from pico.edge import emission
+
+        own = self._apparatus
+        over = frozenset(emission.over(own.setup, own.place, own.now()).items())
+        if self._edge.lease is not None or over <= self._minded:
+            return False
+        self._minded = over
+        return True
+
+    async def shut_over(self, seen: Observation | None = None) -> None:
+        """See `pico.edge.shutting.Shutting.shut_over`; for who has the bench."""
+        if self._lasers is None:
+            from pico.edge.shutting import Shutting
+
+            self._lasers = Shutting(self._edge)
+        await self._lasers.shut_over(seen)
+
+    def told(self) -> tuple[Diagnostic, ...]:
+        """Return, once, which lasers were shut, and why."""
+        return self._lasers.told() if self._lasers is not None else ()
+
+    # the light on samples
+
+    async def doses(self) -> tuple[Dose, ...]:
+        """Return what the samples of the bench had; see `pico.edge.contract.EdgeLicensing`."""
+        return self.doses_until(await self._sight.observe()) if self._apparatus.has_samples else ()
+
+    def doses_until(self, seen: Observation) -> tuple[Dose, ...]:
+        """Return what the samples of the bench had until it was seen so."""
+        if not self._apparatus.has_samples:
+            return ()
+        from pico.edge.dose import read
+
+        own = self._apparatus
+        return read(own.place).until(own.setup, seen).doses(own.setup)
+
+    def guard(self, inner: Executing, bare: Callable[[], bool]) -> Executing:
+        """Return what does the same, lets light out by a licence only, and counts the light on samples. `bare` says
+        that no plan asks for an operation, see `pico.edge.emission.Guarded`."""
+        from pico.edge.emission import Guarded
+
+        own, observe = self._apparatus, self._sight.observe
+        guarded = Guarded(own.setup, inner, observe, bare, self.alone.most)
+        if not own.has_samples:
+            return guarded
+        from pico.edge.dose import Dosing
+
+        return Dosing(own.setup, own.place, guarded, observe)
+
+    # runs that nobody attends
+
+    @property
+    def alone(self) -> Alone:
+        """What holds an unattended run to its terms."""
+        from pico.edge.unattended import Alone
+
+        if self._alone is None:
+            self._alone = Alone(self._edge)
+        return self._alone
+
+    async def hold(self, terms: Terms) -> Left | None:
+        """Hold an unattended run to its terms; see `pico.edge.contract.EdgeLicensing`."""
+        require_attached(self._apparatus.place)
+        return await self.alone.hold(terms)
+
+    def hear(self, recipe: str) -> None:
+        """Hear that a recipe starts something, if one is held. Raises PicoError if the edge ended it."""
+        if self._alone is not None:
+            self._alone.goes_on(recipe)
+
+    async def unattended(self) -> Terms | None:
+        """Return the terms of an unattended run; see `pico.edge.contract.EdgeLicensing`."""
+        known = self._alone is not None or (self._apparatus.place.folder / UNATTENDED).exists()
+        return self.alone.known() if known else None
+
+    async def close(self) -> None:
+        """Hold nothing any more: this process ends."""
+        if self._alone is not None:
+            await self._alone.close()
