@@ -11,8 +11,9 @@ from pico.diagnostics import Diagnostic, error
 from pico.edge import emission
 from pico.edge.about import about_run
 from pico.edge.armings import forget
+from pico.edge.protocol import Holder, Lease
 from pico.edge.running import new_run_id
-from pico.edge.unattended import Alone
+from pico.edge.unattended import Alone, Held
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
@@ -52,6 +53,17 @@ class Emitting(Protocol):
     async def perform(self, operation: Operation, key: str) -> OperationResult:
         """Have an operation done; cancelling the wait does not cancel it."""
         ...
+
+
+class ActingEdge(Emitting, Held, Protocol):
+    """The whole edge, for what acts on its bench as a client does: it shuts a laser, or ends a run."""
+
+    @property
+    def lease(self) -> Lease | None:
+        """The lease of who has the bench through this edge."""
+        ...
+
+    async def holder(self) -> Holder | None: ...
 
 
 class Shutting:

@@ -19,6 +19,7 @@ from pico.model.lab import PolicyRule
 from pico.model.observation import Observation, live_state
 from pico.model.operation import Operation
 from pico.model.plan import Base, LabRef, Plan, Target
+from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import Expectation
 from pico.model.trace.dose import Dose
@@ -125,21 +126,76 @@ def test_before_the_bench_is_taken_only_those_judge_who_need_not_see_it(name: st
         require_permitted(made)
 
 
-def test_every_judge_that_can_refuse_has_a_plan_here_and_the_others_only_warn(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_every_judge_that_can_refuse_has_a_plan_here() -> None:
     assert set(REFUSED) == {one.name for one in JUDGES if one.refuses}
     assert [one.name for one in JUDGES if not one.refuses] == ["claims", "goals"]
-    claim = warning("claim", "the tolerances do not carry it")
-    monkeypatch.setattr("pico.diagnosis.claims.uncarried", lambda *_: [("c", claim)])
-    setup = with_lab(claims={"c": Claim(of="cam.power", to="1 %")})
-    assert judge_plan(case(carry("holder", 600, 300), setup=setup, target=Target(revision="e1"))).diagnostics == (
-        claim,
-    )
+
+
+CLAIM = warning("claim", "the tolerances do not carry it", detail="they leave 2 %", hint="p1.angle to ± 0.1 deg")
+CLAIMED = with_lab(claims={"c": Claim(of="cam.power", to="1 %")})
+MOVED = carry("holder", 600, 300)
+
+
+def test_claims_are_told_of_a_plan_to_a_state_of_a_lab_that_has_any(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = list[Any]()
+    monkeypatch.setattr("pico.diagnosis.claims.uncarried", lambda *given: (asked.append(given), [("c", CLAIM)])[1])
+    made = case(MOVED, setup=CLAIMED, target=Target(revision="e1"))
+    assert judge_plan(made).diagnostics == (CLAIM,) and asked == [(CLAIMED, made.plan.target_state, "e1")]
+    require_permitted(made)
+    assert not judge_plan(case(MOVED, target=Target(revision="e1"))).diagnostics
+    assert not judge_plan(case(ELSE, setup=CLAIMED, target=Target(cause="single"))).diagnostics
+    assert not judge_plan(case(MOVED, setup=CLAIMED, target=Target(title="the bench before a run"))).diagnostics
+    assert len(asked) == 1
+
+
+def test_claims_that_are_known_are_not_reckoned_again_and_of_a_plan_that_does_nothing_only_these_are_told(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("pico.diagnosis.claims.uncarried", lambda *_: [("c", CLAIM)])
+    known = dict[tuple[str, str], Any]()
+
+    def recall(kind: str, key: str, read: Any, find: Any) -> Any:
+        if (kind, key) in known:
+            return read(known[kind, key])
+        if find is not None:
+            known[kind, key] = as_json(find())
+        return find and find()
+
+    made = case(MOVED, setup=CLAIMED, target=Target(revision="e1"), recall=recall)
+    still = replace(made, plan=replace(made.plan, operations=()))
+    other = replace(still, plan=replace(still.plan, target=Target(revision="e2")))
+    assert not judge_plan(still).diagnostics
+    assert judge_plan(made).diagnostics == (CLAIM,) and [kind for kind, _ in known] == ["claims"]
+    assert judge_plan(made).diagnostics == judge_plan(still).diagnostics == (CLAIM,)
+    assert not judge_plan(other).diagnostics
+
+
+def test_a_goal_that_a_plan_spoils_is_told_and_one_that_it_does_not_touch_is_not() -> None:
     goal = Goal(tunables={"gate.shutter": (0, 1)}, maximize="cam.power")
     known = GoalRecord(lambda: None, lambda _: [Alignment("g", "aligned", at="2026-11-24T12:00:00Z", seconds=3.0)])
-    made = case(set_to("gate", "shutter", "closed"), setup=with_lab(goals={"g": goal}), goals=known)
+    setup = with_lab(goals={"g": goal})
+    made = case(set_to("gate", "shutter", "closed"), setup=setup, goals=known)
     (lost,) = judge_plan(made).spoils or ()
     assert (lost.goal, lost.why, lost.seconds) == ("g", "gate.shutter changes", 3.0)
     require_permitted(made)
+    kept = case(ELSE, setup=setup, goals=known)
+    assert judge_plan(kept) is kept.plan
+
+
+def test_of_a_bench_that_nobody_asked_what_it_can_do_nothing_is_said() -> None:
+    for name in ("lab", "capability"):
+        made = replace(REFUSED[name].case(), able=None)
+        require_permitted(made)
+        assert judge_plan(made) is made.plan
+
+
+def test_a_plan_that_does_nothing_gives_no_dose() -> None:
+    spent = (replace(DOSES[0], spent=99.0, power=1.0),)
+    made = case(setup=sampled(), seen=observed(LICENSED, laser={"power": 0.9, "shutter": "open"}), doses=spent)
+    still = replace(made, plan=replace(made.plan, operations=()))
+    require_permitted(still)
+    with pytest.raises(PicoError):
+        require_permitted(made)
 
 
 def test_what_a_plan_says_already_is_not_said_twice() -> None:

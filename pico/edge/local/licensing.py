@@ -6,34 +6,23 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.edge.local.apparatus import Apparatus
 from pico.edge.local.sight import Sight
-from pico.edge.protocol import UNATTENDED, Holder, Lease
+from pico.edge.protocol import UNATTENDED
 from pico.model.observation import Observation
 from pico.places.attachment import require_attached
 
 if TYPE_CHECKING:
     from pico.edge.armings import Kept
     from pico.edge.attempts import Executing
-    from pico.edge.shutting import Emitting, Shutting
-    from pico.edge.unattended import Alone, Held
+    from pico.edge.shutting import ActingEdge, Shutting
+    from pico.edge.unattended import Alone
     from pico.model.arming import Arming
     from pico.model.trace.dose import Dose
     from pico.model.trace.unattended import Left, Terms
-
-    class Acting(Emitting, Held, Protocol):
-        """The whole edge, for what acts on the bench as a client does: shuts a laser, ends a run."""
-
-        @property
-        def lease(self) -> Lease | None:
-            """The lease of who has the bench through this edge."""
-            ...
-
-        async def holder(self) -> Holder | None: ...
-
 
 SHUT_WITHIN = 150
 """So often is looked whether who has the bench has shut a laser that was disarmed."""
@@ -44,7 +33,7 @@ AGAIN = 0.02
 class Licensing:
     """Keeps armings of one bench, shuts what nothing lets emit any more, and counts the light on samples."""
 
-    def __init__(self, apparatus: Apparatus, sight: Sight, edge: Acting) -> None:
+    def __init__(self, apparatus: Apparatus, sight: Sight, edge: ActingEdge) -> None:
         self._apparatus, self._sight, self._edge = apparatus, sight, edge
         self._lasers: Shutting | None = None
         self._alone: Alone | None = None

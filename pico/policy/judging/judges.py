@@ -97,7 +97,7 @@ def _claims(case: PlanCase) -> Judgment:
 
 def _dose(case: PlanCase) -> Judgment:
     """Whether a sample would have more light than it may."""
-    if not case.plan.operations or not case.doses:
+    if not case.plan.operations:
         return Judgment()
     from pico.policy.dose import refused
 
