@@ -31,4 +31,4 @@ def require_current(setup: Setup, plan: Plan, seen: Observation) -> None:
 def with_rules(setup: Setup, plan: Plan, seen: Observation) -> Plan:
     """Return a plan that carries the verdicts on the rules of its lab."""
     case = PlanCase(setup, plan, seen)
-    return case.told(judgment_of("rules", case)).plan.sealed()
+    return case.with_judgment(judgment_of("rules", case)).plan.sealed()

@@ -48,8 +48,8 @@ VERSION = 1
 """Of the rules of the audit; a verdict by others is not believed."""
 MOST = 64
 """So many verdicts stay in memory, the newest."""
-_TRACED: dict[tuple[str, str], Audit] = {}
-_TRACING = Lock()
+_VERDICTS: dict[tuple[str, str], Audit] = {}
+_VERDICTS_LOCK = Lock()
 
 
 def audit_key(setup: Setup, lit: Lit) -> str:
@@ -64,16 +64,16 @@ def judge(setup: Setup, lit: Lit) -> Audit:
     digit, as a digest is of rounded numbers. Nothing of that is read from a disk: an edge believes no file of a client.
     """
     key = (setup.digest(), json.dumps(as_json([lit.poses, lit.values, lit.lasers]), sort_keys=True))
-    with _TRACING:  # a client plans in another thread than the edge in its process
-        known = _TRACED.pop(key, None)
+    with _VERDICTS_LOCK:  # a client plans in another thread than the edge in its process
+        known = _VERDICTS.pop(key, None)
     if known is None:
         from pico.optics.audit.audit import audit
 
         known = audit(setup, lit.poses, lit.values, lit.lasers)
-    with _TRACING:
-        _TRACED[key] = known
-        while len(_TRACED) > MOST:
-            del _TRACED[next(iter(_TRACED))]
+    with _VERDICTS_LOCK:
+        _VERDICTS[key] = known
+        while len(_VERDICTS) > MOST:
+            del _VERDICTS[next(iter(_VERDICTS))]
     return known
 
 

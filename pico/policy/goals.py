@@ -30,7 +30,7 @@ class GoalRecord:
     standing: Callable[[LabState], Sequence[Alignment]]
 
 
-def left_by(
+def judge_goals(
     setup: Setup, plan: Plan, seen: Observation, known: GoalRecord
 ) -> tuple[tuple[Diagnostic, ...], tuple[Spoiled, ...]]:  # fmt: skip
     """Return which set-points of the state that a plan leads to light has yet to find, and which goals of the Lab the

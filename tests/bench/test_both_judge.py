@@ -43,7 +43,7 @@ def test_client_and_edge_ask_the_same_judges_and_light_is_traced_once(
 
     real, traced, asked = tracing.audit, list[Any](), list[tuple[str, PlanCase]]()
     monkeypatch.setattr(tracing, "audit", lambda *given: (traced.append(given), real(*given))[1])
-    monkeypatch.setattr(audit, "_TRACED", {})
+    monkeypatch.setattr(audit, "_VERDICTS", {})
 
     def ask(one: Judge, case: PlanCase) -> Judgment:
         asked.append((one.name, case))

@@ -35,7 +35,7 @@ def traced(monkeypatch: pytest.MonkeyPatch) -> list[str]:
         return light_of(*given, **more)
 
     monkeypatch.setattr(auditing, "light_of", counted)
-    monkeypatch.setattr(policy, "_TRACED", {})
+    monkeypatch.setattr(policy, "_VERDICTS", {})
     return found
 
 
@@ -110,7 +110,7 @@ def test_a_verdict_is_kept_and_a_plan_without_changes_never_traces(
     assert len(traced) == count
     edit(shel / "state" / "table.yaml", "angle: 22.75", "angle: 20")
     assert pico("plan").code == 0 and len(traced) == count + 1
-    monkeypatch.setattr(policy, "_TRACED", {})  # as of another process
+    monkeypatch.setattr(policy, "_VERDICTS", {})  # as of another process
     assert pico("apply", "--auto-approve").code == 0
     assert len(traced) == count + 2, "an edge believes no file of a client"
 

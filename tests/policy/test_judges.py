@@ -170,6 +170,27 @@ def test_claims_that_are_known_are_not_reckoned_again_and_of_a_plan_that_does_no
     assert not judge_plan(other).diagnostics
 
 
+def test_of_the_light_of_a_plan_that_does_nothing_only_what_is_known_is_told() -> None:
+    asked = list[tuple[str, bool]]()
+
+    def recall(kind: str, key: str, read: Any, find: Any) -> Any:
+        asked.append((kind, find is not None))
+        return find and find()
+
+    seen = observed(LICENSED, laser={"power": 4.0, "shutter": "open"}, without=("cam",))
+    made = case(MOVED, seen=seen, recall=recall)
+    assert made.light[0].findings and asked == [("audit", True)]
+    still = replace(made, plan=replace(made.plan, operations=()))
+    assert not still.light[0].findings and asked[1:] == [("audit", False)]
+
+
+def test_verdicts_on_rules_stand_before_what_a_plan_keeps_of_its_own_policy() -> None:
+    made = case(setup=bench(rules=(PolicyRule(name="r", that="true"),)))
+    own, old = {"rule": "shutter", "text": "closed"}, {"rule": "r", "level": "mandatory", "holds": False}
+    told = judge_plan(replace(made, plan=replace(made.plan, policy=(old, own))))
+    assert [entry.get("holds") for entry in told.policy] == [True, None] and told.policy[1] == own
+
+
 def test_a_goal_that_a_plan_spoils_is_told_and_one_that_it_does_not_touch_is_not() -> None:
     goal = Goal(tunables={"gate.shutter": (0, 1)}, maximize="cam.power")
     known = GoalRecord(lambda: None, lambda _: [Alignment("g", "aligned", at="2026-11-24T12:00:00Z", seconds=3.0)])
@@ -222,7 +243,7 @@ def test_the_light_of_one_bench_is_traced_once_for_all_judges_and_for_every_digi
 
     real, traced = tracing.audit, list[Any]()
     monkeypatch.setattr(tracing, "audit", lambda *given: (traced.append(given), real(*given))[1])
-    monkeypatch.setattr(audit, "_TRACED", {})
+    monkeypatch.setattr(audit, "_VERDICTS", {})
     rule = PolicyRule(name="clean", that="audit.passes && audit.findings.size() == 0", level="advisory")
     made = case(OPEN, setup=bench(rules=(rule,)))
     judge_plan(made)
@@ -235,7 +256,7 @@ def test_the_light_of_one_bench_is_traced_once_for_all_judges_and_for_every_digi
     monkeypatch.setattr(audit, "MOST", 1)
     judge(made.setup, lit)
     judge(made.setup, replace(lit, poses=near))
-    assert len(traced) == 3 and len(audit._TRACED) == 1
+    assert len(traced) == 3 and len(audit._VERDICTS) == 1
 
 
 JUDGING = {
@@ -246,7 +267,7 @@ JUDGING = {
     "audit_of": {"policy/judging/case.py"},
     "verdicts": set[str](),
     "uncarried": {"diagnosis/claims.py", "bench/commits.py"},  # of a manifest, and of a commit
-    "left_by": set[str](),
+    "judge_goals": set[str](),
 }
 """What judges a plan, and who asks for it beside the list: not a client or an edge that starts one."""
 

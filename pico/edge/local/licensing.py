@@ -97,7 +97,7 @@ class Licensing:
             self._lasers = Shutting(self._edge)
         await self._lasers.shut_over(seen)
 
-    def told(self) -> tuple[Diagnostic, ...]:
+    def notices(self) -> tuple[Diagnostic, ...]:
         """Return, once, which lasers were shut, and why."""
         return self._lasers.told() if self._lasers is not None else ()
 

@@ -143,7 +143,7 @@ class Runs:
         try:
             seen, able = await self._sight.observe(), await self._apparatus.describe()
             report = opened.report("interrupted" if self._custody.halted else outcome, seen, able)
-            report = replace(report, diagnostics=self._licensing.told())
+            report = replace(report, diagnostics=self._licensing.notices())
             self.end_open(report.outcome)
             self._apparatus.journals.journal.saw(run, seen_after(seen, (), reached=False))
         finally:
@@ -273,7 +273,7 @@ class Runs:
             raise PicoError([*told_by(events), *exc.diagnostics], exc.exit_code) from exc
         report = run_report(self._apparatus.setup, job.plan, events, seen, wall=wall, able=able)
         reached = report.whole and report.outcome == "done" and report.reached and not report.by_light
-        more = (*self._kept.told(), *self._licensing.told(), *self._why(report))
+        more = (*self._kept.told(), *self._licensing.notices(), *self._why(report))
         report = replace(report, diagnostics=(*report.diagnostics, *more))
         if self._open is not None:
             return report

@@ -99,7 +99,7 @@ class PlanCase:
 
         return audit_of(self.setup, self.plan, self.seen, judged)
 
-    def told(self, judgment: Judgment) -> PlanCase:
+    def with_judgment(self, judgment: Judgment) -> PlanCase:
         """Return the case with a plan that carries a judgment; no judgment changes what the plan does, so what was
         worked out of it stays. What the plan says already is not said twice."""
         plan, changes = self.plan, dict[str, Any]()

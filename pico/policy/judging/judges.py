@@ -108,9 +108,9 @@ def _goals(case: PlanCase) -> Judgment:
     """Which set-points light has yet to find, and which goals the plan leaves to be aligned again."""
     if case.goals is None:
         return Judgment()
-    from pico.policy.goals import left_by
+    from pico.policy.goals import judge_goals
 
-    told, lost = left_by(case.setup, case.plan, case.seen, case.goals)
+    told, lost = judge_goals(case.setup, case.plan, case.seen, case.goals)
     return Judgment(diagnostics=told, spoils=lost if told or lost else None)
 
 
@@ -156,7 +156,7 @@ def judge_plan(case: PlanCase) -> Plan:
     """Return the plan with what its judges say of it, sealed anew if that is anything."""
     judged = case
     for one in JUDGES:
-        judged = judged.told(one.judge(judged))
+        judged = judged.with_judgment(one.judge(judged))
     return judged.plan if judged is case else judged.plan.sealed()
 
 

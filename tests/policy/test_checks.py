@@ -6,11 +6,11 @@ from dataclasses import replace
 from typing import Any
 
 import pytest
-from benches import shel
 from judged import require_applicable, require_current
 
 from pico.backends.device import Capabilities
 from pico.diagnostics import ExitCode, PicoError
+from pico.manifest.load import load_folder
 from pico.model.observation import (
     Observation,
     ObservedComponent,
@@ -25,8 +25,9 @@ from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.state import home_state, place_of
 from pico.policy.freshness import differing, edited
+from pico.resources import labs_dir
 
-SETUP, _ = shel("gantry")
+SETUP, _ = load_folder(labs_dir() / "shel").require()
 HOME = {n: place_of(SETUP, home_state(SETUP), n)[1] for n in SETUP.lab.inventory}
 AWAY = Pose(520, 420, 30)
 
