@@ -25,7 +25,7 @@ from pico.model.state import Expectation
 from pico.model.trace.dose import Dose
 from pico.planning.alignment import Alignment
 from pico.policy import audit
-from pico.policy.audit import judge, lit_by
+from pico.policy.audit import audit_key, judge, lit_by
 from pico.policy.goals import GoalRecord
 from pico.policy.judging.case import PlanCase
 from pico.policy.judging.judges import JUDGES, judge_plan, judgment_of, require_permitted
@@ -250,6 +250,8 @@ def test_the_light_of_one_bench_is_traced_once_for_all_judges_and_for_every_digi
     require_permitted(replace(made))  # as an edge has it: the same plan, a case of its own
     assert len(traced) == 1
     lit = lit_by(made.setup, made.plan, made.seen)
+    beside = {**lit.poses, "cam": replace(lit.poses["cam"], x=lit.poses["cam"].x + 1)}
+    assert audit_key(made.setup, lit) != audit_key(made.setup, replace(lit, poses=beside))
     near = {**lit.poses, "cam": replace(lit.poses["cam"], x=lit.poses["cam"].x + 1e-9)}
     judge(made.setup, replace(lit, poses=near))
     assert len(traced) == 2
