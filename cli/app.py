@@ -30,7 +30,7 @@ EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emu
 
 def _version(value: bool) -> None:
     if value:
-        from pico import __version__
+        from pico.version import __version__
 
         typer.echo(f"pico {__version__}")
         raise typer.Exit

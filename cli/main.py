@@ -64,7 +64,7 @@ def _at_once(words: list[str]) -> str | None:
 
         return help_text(every=words[1:] == ["all"])
     if words in (["--version"], ["-V"]):
-        from pico import __version__
+        from pico.version import __version__
 
         return f"pico {__version__}"
     return None

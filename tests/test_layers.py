@@ -12,8 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "diagnostics", "disk", "expressions", "resources", "registered", "places", "kernels", "optimize", "model",
-    "teleop", "control", "content", "geometry",
+    "version", "diagnostics", "disk", "expressions", "resources", "registered", "places", "kernels", "optimize",
+    "model", "teleop", "control", "content", "geometry",
     "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "drivers", "emulators",
     "backends", "policy", "execution", "runs", "edge", "history", "bench", "scripting", "recipes", "server",

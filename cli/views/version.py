@@ -12,7 +12,7 @@ STANDS_ON = ("mujoco", "numpy", "pygit2", "pydantic", "PyYAML", "ruckig", "typer
 
 def versions() -> dict[str, str | None]:
     """Return the versions of PICO and of what it stands on, None where it is not installed."""
-    from pico import __version__
+    from pico.version import __version__
 
     own = {"pico": __version__, "python": platform.python_version(), "git": _git()}
     system = {"system": f"{platform.system()} {platform.machine()}"}

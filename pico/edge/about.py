@@ -13,6 +13,7 @@ from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.expectation import Expected
+from pico.version import __version__
 
 STANDS_ON = ("mujoco", "numpy", "ruckig")
 """Packages whose version may change how something moves."""
@@ -50,8 +51,6 @@ def seen_after(seen: Observation, expectations: tuple[Expected, ...], *, reached
 
 
 def _versions() -> dict[str, str]:
-    from pico import __version__
-
     return {"pico": __version__, "python": platform.python_version()} | {
         name: found for name in STANDS_ON if (found := _installed(name))
     }

@@ -20,6 +20,7 @@ from pico.places.bench import BenchPlace
 from pico.places.lab import lab_place
 from pico.places.record import SHARED
 from pico.places.seals import sealed_labs, write_seals
+from pico.version import NEWER, upgrade_hint
 
 if TYPE_CHECKING:
     from pico.model.setup import Setup
@@ -46,7 +47,7 @@ def read(place: BenchPlace) -> OwnLab | None:
     try:
         if document["schema"] != SCHEMA:
             text = f"{path} is {str(document['schema'])[:40]}, and this PICO reads {SCHEMA}"
-            raise PicoError(error(CODE, text, hint="update PICO"))
+            raise PicoError(error(NEWER, text, hint=upgrade_hint()))
         files = {str(name): str(text) for name, text in document["files"].items()}
         return OwnLab(files=files, by=str(document["by"]), at=str(document["at"]))
     except (KeyError, TypeError, AttributeError) as exc:
@@ -112,10 +113,12 @@ def of_files(files: Mapping[str, bytes]) -> OwnLab:
 
 def setup_of(lab: OwnLab) -> Setup:
     """Return the bench that a Lab describes; raises PicoError for what is wrong with it."""
+    from pico.manifest.checks.required_version import require_satisfied
     from pico.manifest.load import load_files
 
     before = NAMED if lab.at else ""
     read = load_files({before + name: data for name, data in lab.as_bytes().items()})
+    require_satisfied(read.diagnostics)
     wrong = [d for d in read.diagnostics if d.severity == "error" and d.code != "no-state"]
     if read.setup is None or wrong:
         kept = error(CODE, "what the bench keeps as its own Lab can't be used", hint=_HINT)

@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import write_all
 from pico.manifest.catalog import catalog_names, load_catalog, read_type, unknown_type
 from pico.manifest.files import read_folder, shown_path
-from pico.manifest.load import Manifests, find_lab, load_files, load_folder
+from pico.manifest.load import Manifests, find_lab, load_files, own_types
 from pico.model.catalog import Catalog, ComponentType
 from pico.model.record import record
 
@@ -160,9 +160,10 @@ def _manifests(root: Path) -> dict[str, str]:
 def catalog_of(start: Path) -> Catalog:
     """Return the packaged component types, and the own ones of the lab that `start` lies in, where there is one."""
     try:
-        documents = load_folder(find_lab(start)).documents.get("ComponentType", ())
+        root = find_lab(start)
     except PicoError:
-        documents = ()
+        return load_catalog()
+    documents = own_types(root)
     own = {kind.name: kind for document in documents if (kind := read_type(document)[0]) is not None}
     return load_catalog(extra={name: kind for name, kind in own.items() if name not in catalog_names()})
 

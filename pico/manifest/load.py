@@ -13,6 +13,7 @@ from pico.manifest.bench_view import BenchView, type_names, view_of, view_of_bro
 from pico.manifest.catalog import both, catalog_names, packaged_type, read_type, unknown_type
 from pico.manifest.checks.labs import check_lab, check_setup
 from pico.manifest.checks.own_parameters import check_own_parameters
+from pico.manifest.checks.required_version import require_satisfied, unsatisfied
 from pico.manifest.file_names import TOLD, misnamed_manifest, named_as_manifest
 from pico.manifest.files import decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
@@ -124,6 +125,13 @@ def load_folder(root: Path) -> Manifests:
     return load_files(*read_folder(root), root=shown_path(root))
 
 
+def own_types(root: Path) -> tuple[Document, ...]:
+    """Return the component types that a lab's folder holds; raises PicoError if the lab requires another PICO."""
+    manifests = load_folder(root)
+    require_satisfied(manifests.diagnostics)
+    return manifests.documents.get("ComponentType", ())
+
+
 def load_files(
     files: Mapping[str, bytes], found: Iterable[Diagnostic] = (), *, setup: Setup | None = None, root: str = "",
     without: Collection[str] = (),
@@ -141,6 +149,8 @@ def _load(
     files: Mapping[str, bytes], found: list[Diagnostic], root: str, setup: Setup | None, without: Collection[str]
 ) -> Manifests:
     documents, others = _documents(files, found)
+    if unmet := unsatisfied(documents["Lab"]):
+        return Manifests(None, None, tuple(unmet), {kind: tuple(of_kind) for kind, of_kind in documents.items()})
     setup, view = (setup, replace(view_of(setup), without=without)) if setup else _bench(documents, found, root)
     if view:
         found.extend(wrong for other in others for wrong in headless(other, view.kinds))

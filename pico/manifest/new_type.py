@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.disk import write_whole
 from pico.manifest.catalog import catalog_names, read_type, unknown_type
 from pico.manifest.files import decode, shown_path
-from pico.manifest.load import find_lab, load_folder
+from pico.manifest.load import find_lab, own_types
 from pico.manifest.text.places import find
 from pico.manifest.text.tree import Document, Node, parse
 from pico.model.catalog import value_of
@@ -50,7 +50,7 @@ class _Named:
 
 
 def _own(root: Path) -> list[_Named]:
-    documents = load_folder(root).documents.get("ComponentType", ())
+    documents = own_types(root)
     return [_Named(d, kind.name) for d in documents if (kind := read_type(d)[0]) is not None]
 
 

@@ -265,6 +265,8 @@ class Lab:
     goals: Mapping[str, Goal] | None = None
     claims: Mapping[str, Claim] | None = None
     inventory: Mapping[str, Part]
+    requires_pico: str | None = None
+    """The versions of PICO that may read this lab, as a version specifier (`>=0.2`); None for any."""
 
     def __post_init__(self) -> None:
         riding = {

@@ -13,6 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache, wraps
 from typing import Any, TypeVar, cast, dataclass_transform
 
+from pico.version import upgrade_hint
+
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
 REMEMBERED = 4
@@ -127,7 +129,7 @@ class Format:
         if not found:
             raise ValueError(f"no {self.schema}, but {str(said)[:40]!r}")
         if (version := int(found[1])) > len(self.steps) + 1:
-            raise ValueError(f"of a newer PICO ({said}; this one reads up to {self.schema}): update PICO")
+            raise ValueError(f"of a newer PICO ({said}; this one reads up to {self.schema}): {upgrade_hint()}")
         assert isinstance(document, Mapping)
         for step in self.steps[version - 1 :]:
             document = step(document)

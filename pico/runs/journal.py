@@ -26,6 +26,7 @@ from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json, digest, record
 from pico.model.trace.run import RunOutcome
+from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
@@ -173,7 +174,8 @@ class Journal:
         self._db.execute("PRAGMA fullfsync=ON")  # macOS; elsewhere it does nothing
         (version,) = self._db.execute("PRAGMA user_version").fetchone()
         if version > VERSION:
-            raise PicoError(error("journal", f"{self.path} is of a newer PICO (version {version})", hint="update PICO"))
+            text = f"{self.path} is of a newer PICO (version {version})"
+            raise PicoError(error("journal", text, hint=upgrade_hint()))
         if version < VERSION:
             script = {0: _TABLES, 1: _FROM_1, 2: _FROM_2}[version]
             self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")

@@ -13,7 +13,6 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
 from starlette.exceptions import HTTPException
 
-import pico
 from pico.diagnostics import PicoError, error
 from pico.server.desk.desks import Desking
 from pico.server.guard.addresses import LOOPBACK
@@ -27,6 +26,7 @@ from pico.server.relay.relaying import relaying
 from pico.server.routes import calls, desk, edge, events, labs, leases, link, live, people, session
 from pico.server.routes.admitting import refusal
 from pico.server.store.books import Books
+from pico.version import __version__
 
 ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, live.router,
            calls.router, desk.router, session.router)  # fmt: skip
@@ -52,7 +52,7 @@ def create_app(
             yield
 
     app = FastAPI(
-        title="PICO coordinator", version=pico.__version__, lifespan=lasting, docs_url=None, redoc_url=None,
+        title="PICO coordinator", version=__version__, lifespan=lasting, docs_url=None, redoc_url=None,
         openapi_url="/api/openapi.json",
     )  # fmt: skip
     app.state.books = books

@@ -29,6 +29,7 @@ from pico.runs.journal import JournalRecord, RunRecord, Success, Unsettled
 from pico.teleop.frames import Answer, Frame
 from pico.twin.placement import Placement
 from pico.twin.snapshot import Snapshot
+from pico.version import __version__, upgrade_hint
 from pico.vision.arm import ArmOffsets
 
 About = tuple[tuple[dict[str, Any], ...], dict[str, Any] | None]
@@ -132,7 +133,9 @@ def read_call(data: bytes) -> tuple[str, list[Any]]:
         kinds = CALLS[name][0]
         return name, [adapter(kind).validate_python(value) for kind, value in zip(kinds, given, strict=True)]
     except (ValueError, KeyError, TypeError, RecursionError) as exc:
-        raise PicoError(error("link", f"this is no call that the edge knows: {str(exc)[:200]}")) from exc
+        text = f"the edge does not know this call: {str(exc)[:200]}"
+        hint = f"the edge runs PICO {__version__}. If the client is newer, {upgrade_hint()} there, and restart the edge"
+        raise PicoError(error("link", text, hint=hint)) from exc
 
 
 def read_answer(name: str, data: bytes) -> tuple[str, Any]:
@@ -160,7 +163,8 @@ def read_document(name: str, document: Any) -> tuple[str, Any]:
 
 def _senseless(name: str, exc: Exception) -> PicoError:
     text = f"the edge answered {name} with something else: {str(exc)[:200]}"
-    hint = "it broke off, or client and edge are of different versions of PICO"
+    hint = f"it broke off, or the edge is of another version than this PICO {__version__}. If it is newer: "
+    hint += f"{upgrade_hint()}"
     return PicoError(error("link", text, hint=hint))
 
 

@@ -17,6 +17,7 @@ from pico.edge.network.remotes import Far, Remote
 from pico.edge.network.session import session_in
 from pico.edge.network.tokens import certificate_of, token_of
 from pico.edge.network.trouble import Gone, away, missing_extra, refused, untrusted
+from pico.version import __version__
 
 Hear = Callable[[Mapping[str, Any] | Gone], None]
 """What is told each answer to a call, and that the line is cut."""
@@ -140,7 +141,6 @@ def opening_trouble(url: str, exc: object) -> PicoError:
 
 def _greet(found: Any, far: Far) -> None:
     """Have either side say who it is; raises PicoError for a coordinator that does not let anybody in."""
-    from pico import __version__
     from pico.edge.network.trouble import told
 
     found.send(json.dumps({"hello": {"session": session_in(far.folder), "version": __version__}}))

@@ -30,6 +30,7 @@ from pico.edge.network.lapsing import left_safely, shut
 from pico.edge.network.offline import offline
 from pico.edge.network.settling import settled
 from pico.model.record import as_json
+from pico.version import __version__
 
 if TYPE_CHECKING:
     from websockets.asyncio.client import ClientConnection
@@ -145,7 +146,7 @@ class Uplink:
         able, lab = await self._edge.describe(), await self._edge.lab()
         hello = {
             "fenced": gate.memory.fenced, "records": self._records(said["open"]), "describe": as_json(able),
-            "lab": lab is not None and able.lab_digest, "version": _version(),
+            "lab": lab is not None and able.lab_digest, "version": __version__,
         }  # fmt: skip
         proof = messages.proof(key, "edge", bench, mine, theirs)
         await link.send(messages.text({"proof": proof, "hello": hello}))
@@ -341,9 +342,3 @@ class Uplink:
         self.wrong = await left_safely(self._edge, "the lease of its bench is over")
         self._left, self._left_told = {"at": self._edge.now(), "wrong": as_json(self.wrong)}, 0
         self._news.set()
-
-
-def _version() -> str:
-    from pico import __version__
-
-    return __version__

@@ -17,6 +17,7 @@ from pico.history.messages.trailers import EVIDENCE, LAB, STATE, with_trailers
 from pico.history.writing.claim import Goal
 from pico.history.writing.commit_object import NewCommit
 from pico.history.writing.in_progress import refuse_begun
+from pico.manifest.checks.required_version import require_satisfied
 from pico.manifest.file_names import is_manifest
 from pico.manifest.load import Manifests, load_files
 from pico.model.diff import Change
@@ -145,8 +146,10 @@ def planned_trailers(manifests: Manifests) -> list[tuple[str, str]]:
 def judged(manifests: Manifests, check: Check, text: str) -> tuple[Diagnostic, ...]:
     """Return the warnings of a state that is about to be written.
 
-    Raises PicoError, ending with `text`, where it is not valid or can't stand (exit 3).
+    Raises PicoError, ending with `text`, where it is not valid or can't stand (exit 3), and PicoError (exit 1) if it
+    requires another PICO.
     """
+    require_satisfied(manifests.diagnostics)
     try:
         manifests.require()
     except PicoError as exc:

@@ -130,9 +130,12 @@ def require_usable(place: Place) -> tuple[Diagnostic, ...]:
     """Return what is worth knowing before a worktree chooses a bench: a real one whose lab describes no devices."""
     if not isinstance(place, BenchPlace) or place.name not in (HARDWARE, EMULATED):
         return ()
+    from pico.manifest.checks.required_version import require_satisfied
     from pico.manifest.load import load_folder
 
-    setup = load_folder(place.root).setup
+    found = load_folder(place.root)
+    require_satisfied(found.diagnostics)
+    setup = found.setup
     if setup is None or setup.wiring is not None:
         return ()
     hint = 'a file with `kind: Devices` names a driver and an address for each: see "Running a real bench" in the docs'

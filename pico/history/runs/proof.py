@@ -22,6 +22,7 @@ from pico.model.trace.expectation import Standing, Verdict
 from pico.model.trace.run import STRENGTH, Run
 from pico.runs.files import intact
 from pico.runs.reading import members
+from pico.version import __version__
 
 
 @dataclass(frozen=True)
@@ -105,8 +106,6 @@ class Standings:
 
     @cached_property
     def _bench(self) -> str:
-        from pico import __version__
-
         return f"{__version__} {self.folder.history().relative(self.folder.root)} {self.folder.setup.digest()}"
 
     def of(self, commit: Commit, state: str | None = None) -> Standing:

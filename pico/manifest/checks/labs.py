@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error, warni
 from pico.manifest.checks.cameras import check_cameras, check_view
 from pico.manifest.checks.former_names import check_former_names
 from pico.manifest.checks.own_parameters import lasting, unattached
+from pico.manifest.checks.required_version import check_requirement
 from pico.manifest.checks.trims import check_own_trims
 from pico.manifest.text.names import check_names, check_own_name
 from pico.manifest.text.places import where, where_key
@@ -25,7 +26,7 @@ BEAM_HEIGHT_MISMATCH = 0.5
 
 def check_lab(document: Document, lab: Lab) -> list[Diagnostic]:
     """Return what is wrong with a lab in itself, each at its place in the document."""
-    found = _names(document)
+    found = [*check_requirement(document), *_names(document)]
     found += check_former_names(document, lab)
     found += _homes(document, lab)
     found += _markers(document, lab)

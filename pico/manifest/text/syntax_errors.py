@@ -49,6 +49,11 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     ("found undefined tag handle", "an unknown tag", "remove the tag; quote text that begins with `!`"),
     ("found incompatible YAML document", "another YAML version", "remove the `%YAML` line; manifests are YAML 1.2"),
     ("did not find expected node content", "a value is missing", "quote text that begins with `,`, `?` or `%`"),
+    (
+        "did not find expected comment or line break",
+        "`>` and `|` begin a block of text",
+        'put the value in quotes: ">=0.2"',
+    ),
     ("did not find expected <document start>", "text after the end of the document", "check the indentation"),
 )
 

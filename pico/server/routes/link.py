@@ -9,7 +9,6 @@ from typing import Any
 from fastapi import WebSocket
 from starlette.websockets import WebSocketDisconnect
 
-import pico
 from pico.diagnostics import PicoError, error
 from pico.edge.link import wire
 from pico.edge.network import messages
@@ -18,6 +17,7 @@ from pico.server.relay.dispatch import Call, Dispatcher
 from pico.server.relay.hub import Gone
 from pico.server.routes.admitting import Admitted, admit, books, refusal, routed
 from pico.server.routes.lasting import lasting
+from pico.version import __version__
 
 router = routed()
 MANY = 64
@@ -62,7 +62,7 @@ class _Client:
                 hello = said["hello"] if isinstance(said["hello"], dict) else {}
                 self._session = str(hello.get("session", ""))
                 who.asker(self._session)
-                await self._send({"hello": {"bench": self._bench, "who": who.name, "version": pico.__version__}})
+                await self._send({"hello": {"bench": self._bench, "who": who.name, "version": __version__}})
                 continue
             number = said.get("id")
             if not isinstance(number, int) or not self._session:

@@ -7,12 +7,12 @@ from typing import Any
 
 from fastapi import Request, WebSocket
 
-import pico
 from pico.diagnostics import PicoError, error
 from pico.server.live.watcher import Watcher
 from pico.server.live.watching import Watched, Watching
 from pico.server.routes.admitting import Admitted, admit, books, needs, refusal, routed
 from pico.server.routes.lasting import lasting, left
+from pico.version import __version__
 
 router = routed()
 
@@ -48,7 +48,7 @@ async def live(socket: WebSocket, lab: str, bench: str) -> None:
 
 async def _watch(socket: WebSocket, admitted: Admitted, watched: Watched) -> None:
     watcher = Watcher()
-    hello = {**watched.where(), "seq": watched.seq, "bench": watched.bench, "version": pico.__version__}
+    hello = {**watched.where(), "seq": watched.seq, "bench": watched.bench, "version": __version__}
     watcher.tell(json.dumps({"hello": hello}, separators=(",", ":")))
     if watched.shown is not None:
         watcher.show(watched.shown.whole(), watched.shown.whole)
