@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test test-slow test-gui slowest check schemas ui clean
+.PHONY: demo test affected test-slow test-gui slowest check schemas ui clean
 .DELETE_ON_ERROR:
 
 demo: $(STAMP)
@@ -13,6 +13,10 @@ demo: $(STAMP)
 
 test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 -m "not slow"
+
+# The quick tests of what changed since the merge base with main; AFFECTED="--list" only lists them.
+affected: $(STAMP)
+	$(BIN)/python .ci/affected.py $(AFFECTED)
 
 test-slow: $(STAMP)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m slow
