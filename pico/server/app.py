@@ -23,13 +23,11 @@ from pico.server.inner import desking
 from pico.server.live.watching import watching
 from pico.server.page.serving import page
 from pico.server.relay.relaying import relaying
-from pico.server.routes import calls, desk, edge, events, labs, leases, link, live, people, session
 from pico.server.routes.admitting import refusal
+from pico.server.routes.known import routers
 from pico.server.store.books import Books
 from pico.version import __version__
 
-ROUTERS = (people.router, leases.router, events.router, labs.router, edge.router, link.router, live.router,
-           calls.router, desk.router, session.router)  # fmt: skip
 NO_DESKS = Desking()
 TICK = 0.5
 """How often leases that are over are looked for [s]."""
@@ -59,7 +57,7 @@ def create_app(
     app.state.desking = desks
     app.state.sockets, app.state.git = Counter(), Counter()
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
-    for router in ROUTERS:
+    for router in routers():
         app.include_router(router)
     app.router.routes.extend(page())
     app.add_middleware(Gatekeeper, names=names)

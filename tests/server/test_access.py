@@ -17,9 +17,10 @@ from websockets.exceptions import InvalidStatus
 
 from pico.diagnostics import PicoError
 from pico.server.access.principal import ROLES, Principal, Right
-from pico.server.app import ROUTERS, create_app
+from pico.server.app import create_app
 from pico.server.guard.rates import Rate
 from pico.server.routes.admitting import ROLE
+from pico.server.routes.known import routers
 from pico.server.store.books import books_in
 from pico.server.store.tables import metadata
 
@@ -36,7 +37,7 @@ BODIES = (b"", b"{", b"[]", b'{"session": "s", "wait": 0, "token": 1, "reason": 
 
 def routes(app: Any) -> list[Any]:
     """Return every route of an app, those of the routers that it includes as well."""
-    return [*app.routes, *(route for router in ROUTERS for route in router.routes)]
+    return [*app.routes, *(route for router in routers() for route in router.routes)]
 
 
 @pytest.fixture(scope="module")

@@ -10,9 +10,9 @@ from fastapi import FastAPI
 
 
 def described(app: FastAPI) -> dict[str, Any]:
-    """Return the interface without what is another one in each version."""
+    """Return the interface, its paths by name, without what differs from version to version."""
     said = dict(app.openapi())
-    return {**said, "info": {**said["info"], "version": ""}}
+    return {**said, "paths": dict(sorted(said["paths"].items())), "info": {**said["info"], "version": ""}}
 
 
 def digest(said: dict[str, Any]) -> str:

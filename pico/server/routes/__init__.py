@@ -1,1 +1,1 @@
-"""What the coordinator answers, a file a subject."""
+"""What the coordinator answers, a file a subject; each is found by being there (`known`)."""
