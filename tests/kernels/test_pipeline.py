@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -75,15 +76,33 @@ def test_readings_are_no_image() -> None:
 
 
 def _example(parameter: Parameter) -> float:
-    """A value that a parameter takes: its default, else one that fits a radius [um], an angle [deg] or a share."""
+    """A value that a parameter takes: its default, else one that fits a radius [um], an angle [deg] or a share, above
+    its least."""
     if parameter.default is not None:
         return parameter.default
-    return 30.0 if parameter.unit else max(0.5, parameter.least or 0.0)
+    return max(30.0 if parameter.unit else 0.5, 2 * (parameter.least or 0.0))
 
 
 def test_every_kernel_has_a_version_and_says_what_it_gives_of_a_picture() -> None:
+    _try_kernels(*known.modules())
+
+
+@pytest.mark.usefixtures("mean")
+@pytest.mark.parametrize(
+    "parameter",
+    ['"wavelength": Parameter("nm", least=400.0)', '"share": Parameter("")', '"radius": Parameter("um", least=0.0)'],
+)
+def test_the_test_of_every_kernel_takes_any_parameter(tmp_path: Path, parameter: str) -> None:
+    declaration = f'takes="image", parameters={{{parameter}}},'
+    text = MEAN.replace("import Declaration, Result", "import Declaration, Parameter, Result")
+    (tmp_path / "mean_kernel.py").write_text(text.replace('takes="image",', declaration))
+    sys.modules.pop("mean_kernel", None)
+    _try_kernels("mean")
+
+
+def _try_kernels(*names: str) -> None:
     frame = picture(Beam(60, 60), (200, 200), 1)
-    for name in known.modules():
+    for name in names:
         declared = known.kernel(name).KERNEL
         assert declared.version
         if declared.takes == "image" and declared.gives == "numbers":
@@ -106,6 +125,7 @@ def mean(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     yield
     monkeypatch.undo()
     modules.cache_clear()
+    sys.modules.pop("mean_kernel", None)
 
 
 @pytest.mark.usefixtures("mean")

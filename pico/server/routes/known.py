@@ -1,5 +1,5 @@
-"""The routers of a coordinator: the `router` of each file of FOLDER that has one; a plug-in brings more by the entry point
-`pico.server_routes`, a module of the same kind."""
+"""The routers of a coordinator: the `router` of each file of FOLDER that has one; a plug-in brings more by the entry
+point `pico.server_routes`, a module of the same kind."""
 
 from __future__ import annotations
 
