@@ -175,6 +175,9 @@ import typer
 
 from pico_cli.session import Session
 
+HEADING = "Manifests"
+ORDER = 15
+
 
 def shutter_speed(context: typer.Context) -> int:
     """Say how long the camera exposes."""
@@ -189,7 +192,8 @@ def test_a_command_is_one_file(beside: Beside, lit: Path, pico: Pico) -> None:
     beside("pico_cli.commands", "shutter_speed", COMMAND)
     answer = pico("shutter-speed")
     assert (answer.code, answer.out) == (0, "5 ms\n"), answer
-    assert "Say how long the camera exposes." in pico("help", "all").out
+    section = pico("help", "all").out.split("Manifests:\n")[1].splitlines()
+    assert section[1] == "  shutter-speed Say how long the camera exposes."
 
 
 STEP = """

@@ -1,4 +1,4 @@
-"""The main job, 4: `pico apply`."""
+"""`pico apply`."""
 
 from __future__ import annotations
 
@@ -26,6 +26,9 @@ from ..arguments import (
 )
 from ..runs.approving import approve, called
 from ..session import Session
+
+HEADING = "The main job"
+ORDER = 40
 
 CLASS = Scoped
 Record = Annotated[

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 2: `pico beam`."""
+"""`pico beam`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import typer
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import beam as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 20
 
 
 def beam(

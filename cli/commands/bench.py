@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 11: `pico bench`."""
+"""`pico bench`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from ..session import Session
 from ..views import benches as benches_view
 from ..views import meant as meant_view
 from ..views import proposal as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 110
 
 app = group(
     help="Which bench commands mean, and its own Lab, which plans go by.",

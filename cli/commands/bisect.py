@@ -1,4 +1,4 @@
-"""History, 7: `pico bisect`: which configuration broke an expectation."""
+"""`pico bisect`: which configuration broke an expectation."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from ..runs.trying import bring, go_on
 from ..session import Session
 from ..terminal.output import write
 from ..views import bisect as view
+
+HEADING = "History"
+ORDER = 70
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""History, 6: `pico blame`."""
+"""`pico blame`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..session import Session
 from ..terminal.paging import paged
 from ..views import blame as view
+
+HEADING = "History"
+ORDER = 60
 
 
 def blame(

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 5: `pico budget`."""
+"""`pico budget`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import budget as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 60
 
 What = Annotated[
     str | None, typer.Argument(metavar="[CLAIM|EXPRESSION]", help="A claim of the lab, or of what: `cam.centroid.y`.")

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 7: `pico calibrate`."""
+"""`pico calibrate`."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..terminal.waiting import waiting
 from ..views import calibration as view
 from ..views import lesson
 from ..views import markers as sheets
+
+HEADING = "The simulator, and the rest"
+ORDER = 80
 
 app = group(
     help="Find out where cameras and arms are; print the markers.",

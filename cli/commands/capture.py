@@ -1,4 +1,4 @@
-"""Manifests, 3: `pico capture`."""
+"""`pico capture`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import capture as view
+
+HEADING = "Manifests"
+ORDER = 30
 
 
 def capture(

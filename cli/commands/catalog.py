@@ -1,4 +1,4 @@
-"""Manifests, 4: `pico catalog`: component types, and the parts of this bench."""
+"""`pico catalog`: component types, and the parts of this bench."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..views import catalog_page as page_view
 from ..views import component_type as type_view
 from ..views import new_type as new_view
 from ..views import parts as parts_view
+
+HEADING = "Manifests"
+ORDER = 40
 
 app = group(
     help="List the component types, show or begin one, or list the parts.",

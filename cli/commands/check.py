@@ -1,4 +1,4 @@
-"""History, 13: `pico check`."""
+"""`pico check`."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from ..session import Session
 from ..terminal.output import write
 from ..terminal.waiting import waiting
 from ..views import check as view
+
+HEADING = "History"
+ORDER = 120
 
 if TYPE_CHECKING:
     from pico.bench.checking import CheckReport

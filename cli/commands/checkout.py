@@ -1,4 +1,4 @@
-"""The main job, 9: `pico checkout`."""
+"""`pico checkout`."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..runs.approving import called, declined, show
 from ..runs.running import execute
 from ..session import Session
 from ..views import checkout as view
+
+HEADING = "The main job"
+ORDER = 100
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""History, 15: `pico cherry-pick`."""
+"""`pico cherry-pick`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import Mainline, NoCommit
 from ..session import Session
 from ..views import transplanted as view
+
+HEADING = "History"
+ORDER = 140
 
 
 def cherry_pick(

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 14: `pico commission`."""
+"""`pico commission`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from pico.model.commissioning import DAYS, STEPS, Step
 from ..arguments import LockTimeout, Yes
 from ..session import Session
 from ..views import commission as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 160
 
 Only = Annotated[list[str] | None, typer.Option("--only", metavar="STEP", help="Do this step; may be given again.")]
 Listed = Annotated[bool, typer.Option("--list", help="Show how it stands, and do nothing.")]

@@ -1,4 +1,4 @@
-"""History, 1: `pico commit`."""
+"""`pico commit`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from pico.diagnostics import PicoError, error
 
 from ..session import Session
 from ..views import commit as view
+
+HEADING = "History"
+ORDER = 10
 
 if TYPE_CHECKING:
     from pico.bench.commits import CommitMode

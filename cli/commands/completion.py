@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 12: `pico completion`."""
+"""`pico completion`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..at_once.complete import HOW, SCRIPTS
 from ..session import Session
+
+HEADING = "The simulator, and the rest"
+ORDER = 130
 
 
 def completion(

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 9: `pico data`: the large data of runs, here and where copies are kept."""
+"""`pico data`: the large data of runs, here and where copies are kept."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from ..arguments import Yes, group
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import data as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 90
 
 if TYPE_CHECKING:
     from pico.history.data.lab import LabData

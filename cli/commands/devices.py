@@ -14,6 +14,9 @@ from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import devices as view
 
+HEADING = "The simulator, and the rest"
+ORDER = 230
+
 app = group(
     help="List the instruments of the bench, and ask whether they answer.",
     examples=("pico devices", "pico devices check", "pico devices check p1 --emulate", "pico devices identify p1"),

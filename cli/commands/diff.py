@@ -1,4 +1,4 @@
-"""History, 4: `pico diff`."""
+"""`pico diff`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from ..arguments import Revision, Scoped, scope_of
 from ..session import Session
 from ..terminal.paging import paged
 from ..views import diff as view
+
+HEADING = "History"
+ORDER = 40
 
 CLASS = Scoped
 From = Annotated[

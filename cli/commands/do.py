@@ -1,4 +1,4 @@
-"""One operation at a time, 1: `pico do`."""
+"""`pico do`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import Component, DryRun, Fidelity, LockTimeout, Manifest, Pairs, Speed, Yes, pairs
 from ..runs.approving import single, written
 from ..session import Session
+
+HEADING = "One operation at a time"
+ORDER = 10
 
 SETTINGS = {"ignore_unknown_options": True}
 

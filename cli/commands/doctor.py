@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 11: `pico doctor`."""
+"""`pico doctor`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import ExitCode, PicoError
 
 from ..session import Session
 from ..views import doctor as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 120
 
 if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic

@@ -1,4 +1,4 @@
-"""History, 11: `pico drift`."""
+"""`pico drift`."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from ..arguments import DetailedExit, Yes
 from ..session import Session
 from ..views import drift as view
 from ..views import watched
+
+HEADING = "History"
+ORDER = 100
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

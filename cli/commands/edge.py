@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 13: `pico edge`."""
+"""`pico edge`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from ..arguments import Fidelity, group
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import edge as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 150
 
 if TYPE_CHECKING:
     from pico.edge.local import LocalEdge

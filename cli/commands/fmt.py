@@ -1,4 +1,4 @@
-"""Manifests, 2: `pico fmt`."""
+"""`pico fmt`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import ExitCode
 
 from ..session import Session
 from ..views import formatted as view
+
+HEADING = "Manifests"
+ORDER = 20
 
 
 def fmt(

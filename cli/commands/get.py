@@ -1,4 +1,4 @@
-"""One operation at a time, 7: `pico get`."""
+"""`pico get`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import values as view
+
+HEADING = "One operation at a time"
+ORDER = 50
 
 
 def get(

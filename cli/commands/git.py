@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 10: `pico git install`, `uninstall`, `attach`, and git's own `branch` and `tag`."""
+"""`pico git install`, `uninstall`, `attach`, and git's own `branch` and `tag`."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from ..arguments import group
 from ..session import Session
 from ..views import attached, named
 from ..views import wired as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 100
 
 Name = Annotated[str, typer.Argument(metavar="NAME", help="What it is to be called.")]
 At = Annotated[str, typer.Argument(metavar="REV", help="Where; HEAD where nothing is said.")]

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 16: `pico gui`."""
+"""`pico gui`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from pico.diagnostics import PicoError, error
 from ..arguments import Fidelity
 from ..session import Session
 from ..views import gui as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 190
 
 Port = Annotated[int, typer.Option("--port", metavar="N", min=0, max=65535, help="At which port, 0 for a free one.")]
 NoOpen = Annotated[bool, typer.Option("--no-open", help="Only tell the address; open no browser.")]

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 6: `pico import`."""
+"""`pico import`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import imported as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 70
 
 Types = Annotated[
     list[str] | None,

@@ -1,4 +1,4 @@
-"""The main job, 1: `pico init`."""
+"""`pico init`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 
 from ..session import Session
 from ..views import started as view
+
+HEADING = "The main job"
+ORDER = 10
 
 
 def init(

@@ -1,4 +1,4 @@
-"""One operation at a time, 8: `pico laser`: what lets lasers emit."""
+"""`pico laser`: what lets lasers emit."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from pico.diagnostics import ExitCode, PicoError, error
 from ..arguments import Fidelity, LockTimeout, Yes, group
 from ..session import Session
 from ..views import laser as view
+
+HEADING = "One operation at a time"
+ORDER = 70
 
 app = group(
     help="Show the lasers, arm one above class 2, or shut it.",

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 17: `pico lease`."""
+"""`pico lease`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import PicoError, error
 from ..arguments import Yes, group
 from ..session import Session
 from ..views import lease as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 210
 
 if TYPE_CHECKING:
     from pico.edge.network.holding import Holding

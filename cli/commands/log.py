@@ -1,4 +1,4 @@
-"""History, 3: `pico log`."""
+"""`pico log`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from ..arguments import Scoped, scope_of
 from ..session import Session
 from ..terminal.paging import paged
 from ..views import log as view
+
+HEADING = "History"
+ORDER = 30
 
 if TYPE_CHECKING:
     from pico.history.lab_history import LabHistory

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 16: `pico login`."""
+"""`pico login`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import typer
 
 from ..session import Session
 from ..views import login as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 200
 
 if TYPE_CHECKING:
     from pico.edge.network.remotes import Remote

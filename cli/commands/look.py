@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 4: `pico look`."""
+"""`pico look`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from pico.model.request import require_component
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import find, scan
+
+HEADING = "The simulator, and the rest"
+ORDER = 50
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look

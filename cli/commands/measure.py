@@ -1,4 +1,4 @@
-"""One operation at a time, 6: `pico measure`."""
+"""`pico measure`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from ..arguments import DryRun, Fidelity, LockTimeout, Yes
 from ..session import Session
 from ..views import measurement as view
 from ..views import report as report_view
+
+HEADING = "One operation at a time"
+ORDER = 30
 
 
 def measure(

@@ -1,4 +1,4 @@
-"""History, 12: `pico merge`."""
+"""`pico merge`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import merge as view
+
+HEADING = "History"
+ORDER = 110
 
 
 def merge(

@@ -1,4 +1,4 @@
-"""One operation at a time, 8: `pico morning`."""
+"""`pico morning`."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from ..session import Session
 from ..views import morning as view
 from ..views import optimizing as live
 from ..views import survey as ahead_view
+
+HEADING = "One operation at a time"
+ORDER = 80
 
 if TYPE_CHECKING:
     from pico.model.trace.event import Event

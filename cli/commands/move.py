@@ -1,4 +1,4 @@
-"""One operation at a time, 2: `pico move`."""
+"""`pico move`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import Component, DryRun, Fidelity, LockTimeout, Manifest, Speed, Yes, pairs
 from ..runs.approving import single, written
 from ..session import Session
+
+HEADING = "One operation at a time"
+ORDER = 20
 
 Where = Annotated[
     list[str] | None,

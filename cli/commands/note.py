@@ -1,4 +1,4 @@
-"""History, 2: `pico note`."""
+"""`pico note`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import Component
 from ..session import Session
 from ..views import note as view
+
+HEADING = "History"
+ORDER = 20
 
 
 def note(

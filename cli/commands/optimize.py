@@ -1,4 +1,4 @@
-"""One operation at a time, 7: `pico optimize`."""
+"""`pico optimize`."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from ..views import optimization as view
 from ..views import optimizing as live
 from ..views import optimizing_ahead as ahead_view
 from ..views import placed as placed_view
+
+HEADING = "One operation at a time"
+ORDER = 60
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

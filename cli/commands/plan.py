@@ -1,4 +1,4 @@
-"""The main job, 3: `pico plan`."""
+"""`pico plan`."""
 
 from __future__ import annotations
 
@@ -25,6 +25,9 @@ from ..arguments import (
 )
 from ..session import Session
 from ..views import plan as view
+
+HEADING = "The main job"
+ORDER = 30
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""History, 17: `pico pull`."""
+"""`pico pull`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import data as said
 from ..views import pulled as view
+
+HEADING = "History"
+ORDER = 160
 
 SETTINGS = {"ignore_unknown_options": True}
 

@@ -1,4 +1,4 @@
-"""History, 16: `pico push`."""
+"""`pico push`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import data as said
 from ..views import pushed as view
+
+HEADING = "History"
+ORDER = 150
 
 if TYPE_CHECKING:
     from pico.history.data.lab import LabData

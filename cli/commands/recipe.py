@@ -1,4 +1,4 @@
-"""Recipes, 2: `pico recipe`."""
+"""`pico recipe`."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from ..views import recipe as view
 from ..views import recipe_list as table
 from ..views import recipe_steps as steps_view
 from ..views import recipe_written as written
+
+HEADING = "Recipes"
+ORDER = 20
 
 app = group(
     help="List and check recipes: experiments that anybody can run again.",

@@ -1,4 +1,4 @@
-"""The main job, 8: `pico recover`."""
+"""`pico recover`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import ExitCode
 from ..arguments import Fidelity, LockTimeout, Yes
 from ..runs.approving import approve, called
 from ..session import Session
+
+HEADING = "The main job"
+ORDER = 90
 
 Keys = Annotated[
     list[str] | None, typer.Option("--done", metavar="KEY", help="This step was done before the run ended: you looked.")

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 15: `pico remote`."""
+"""`pico remote`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import typer
 from ..arguments import group
 from ..session import Session
 from ..views import remote as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 170
 
 app = group(
     help="The coordinators that this checkout knows, by name.",

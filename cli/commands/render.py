@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 2: `pico render`."""
+"""`pico render`."""
 
 from __future__ import annotations
 
@@ -14,6 +14,9 @@ from pico.disk import write_whole
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import picture as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 30
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""The main job, 6: `pico resume`."""
+"""`pico resume`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import Fidelity, LockTimeout, Speed, StopOnError, Yes
 from ..runs.approving import approve, going_back
 from ..session import Session
+
+HEADING = "The main job"
+ORDER = 60
 
 
 def resume(

@@ -1,4 +1,4 @@
-"""History, 14: `pico revert`."""
+"""`pico revert`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import PicoError, error
 from ..arguments import Mainline, NoCommit
 from ..session import Session
 from ..views import transplanted as view
+
+HEADING = "History"
+ORDER = 130
 
 
 def revert(

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 3: `pico ruler`."""
+"""`pico ruler`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import PicoError, error
 
 from ..session import Session
 from ..views import ruler as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 40
 
 A = Annotated[
     str,

@@ -1,4 +1,4 @@
-"""Recipes, 1: `pico run`."""
+"""`pico run`."""
 
 from __future__ import annotations
 
@@ -17,6 +17,9 @@ from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import recipe as view
 from ..views import recipe_progress as progress
+
+HEADING = "Recipes"
+ORDER = 10
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -1,4 +1,4 @@
-"""History, 10: `pico runs`: what was done on the bench, as the commits carry it."""
+"""`pico runs`: what was done on the bench, as the commits carry it."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from ..views import compared, exported, figured, kept, plotted, published, repla
 from ..views import recorded as view
 from ..views import runs as table
 from ..views.style import listed
+
+HEADING = "History"
+ORDER = 90
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 15: `pico serve`."""
+"""`pico serve`."""
 
 from __future__ import annotations
 
@@ -16,6 +16,9 @@ from pico.places.bench import BenchPlace
 
 from ..session import Session
 from ..views import serving as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 180
 
 if TYPE_CHECKING:
     from pico.server.store.books import Books

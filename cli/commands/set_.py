@@ -1,4 +1,4 @@
-"""One operation at a time, 6: `pico set`."""
+"""`pico set`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,9 @@ import typer
 from ..arguments import DryRun, Fidelity, LockTimeout, Manifest, Yes, value_of
 from ..runs.approving import single, written
 from ..session import Session
+
+HEADING = "One operation at a time"
+ORDER = 40
 
 Values = Annotated[
     list[str] | None, typer.Argument(metavar="VALUE|TUNABLE=VALUE...", help="To what; TUNABLE+=STEP from where it is.")

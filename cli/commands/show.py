@@ -1,4 +1,4 @@
-"""History, 5: `pico show`."""
+"""`pico show`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from ..session import Session
 from ..terminal.paging import paged
 from ..views import plan as plan_view
 from ..views import revision as revision_view
+
+HEADING = "History"
+ORDER = 50
 
 
 def show(context: typer.Context, what: PlanOrRevision = None) -> None:

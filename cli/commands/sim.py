@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 1: `pico sim`: the hand of somebody in the simulated laboratory."""
+"""`pico sim`: the hand of somebody in the simulated laboratory."""
 
 from __future__ import annotations
 
@@ -12,6 +12,9 @@ from ..arguments import Component, Seed, group
 from ..session import Session
 from ..views import hidden
 from ..views import simulated as said
+
+HEADING = "The simulator, and the rest"
+ORDER = 10
 
 if TYPE_CHECKING:
     from pico.backends.world import World

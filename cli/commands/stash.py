@@ -1,4 +1,4 @@
-"""History, 18: `pico stash`."""
+"""`pico stash`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import stash as view
+
+HEADING = "History"
+ORDER = 170
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

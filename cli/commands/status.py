@@ -1,4 +1,4 @@
-"""The main job, 2: `pico status`."""
+"""`pico status`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import status as view
+
+HEADING = "The main job"
+ORDER = 20
 
 
 def status(

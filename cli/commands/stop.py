@@ -1,4 +1,4 @@
-"""The main job, 5: `pico stop`."""
+"""`pico stop`."""
 
 from __future__ import annotations
 
@@ -8,6 +8,9 @@ import typer
 
 from ..session import Session
 from ..views import stopped as view
+
+HEADING = "The main job"
+ORDER = 50
 
 Now = Annotated[bool, typer.Option("--now", help="Stop at once: arms brake, shutters close, grippers hold.")]
 

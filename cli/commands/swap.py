@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 12: `pico swap`."""
+"""`pico swap`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import ExitCode, PicoError, error
 from ..arguments import Component, DryRun, Yes
 from ..session import Session
 from ..views import swap as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 140
 
 if TYPE_CHECKING:
     from pico.model.lab import Known

@@ -1,4 +1,4 @@
-"""One operation at a time, 8: `pico teleop`."""
+"""`pico teleop`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from ..arguments import Fidelity, LockTimeout, Yes
 from ..session import Session
 from ..views import steered_from_elsewhere as begun
 from ..views import teleop as view
+
+HEADING = "One operation at a time"
+ORDER = 90
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench

@@ -1,4 +1,4 @@
-"""Recipes, 3: `pico test`."""
+"""`pico test`."""
 
 from __future__ import annotations
 
@@ -15,6 +15,9 @@ from pico.disk import write_whole
 from ..arguments import Fidelity
 from ..session import Session
 from ..views import rehearsed as view
+
+HEADING = "Recipes"
+ORDER = 30
 
 if TYPE_CHECKING:
     from pico.recipes.rehearsing import Rehearsed

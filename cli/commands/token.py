@@ -1,4 +1,4 @@
-"""The simulator, and the rest, 17: `pico token`: who is known to a coordinator, and what they may."""
+"""`pico token`: who is known to a coordinator, and what they may."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from pico.diagnostics import ExitCode, PicoError, error
 from ..arguments import group
 from ..session import Session
 from ..views import token as view
+
+HEADING = "The simulator, and the rest"
+ORDER = 220
 
 if TYPE_CHECKING:
     from pico.edge.network.remotes import Remote

@@ -1,4 +1,4 @@
-"""The main job, 7: `pico undo`."""
+"""`pico undo`."""
 
 from __future__ import annotations
 
@@ -7,6 +7,9 @@ import typer
 from ..arguments import Fidelity, LockTimeout, OfPerson, RunBack, Speed, Yes
 from ..runs.approving import approve, going_back
 from ..session import Session
+
+HEADING = "The main job"
+ORDER = 70
 
 
 def undo(

@@ -1,4 +1,4 @@
-"""Manifests, 1: `pico validate`."""
+"""`pico validate`."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ import typer
 from ..session import Session
 from ..terminal import waiting as slow
 from ..views import validation as view
+
+HEADING = "Manifests"
+ORDER = 10
 
 if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic

@@ -1,4 +1,4 @@
-"""History, 9: `pico verify`."""
+"""`pico verify`."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from ..runs.approving import declined, show
 from ..runs.running import ran
 from ..session import Session
 from ..views import verified as view
+
+HEADING = "History"
+ORDER = 80
 
 Measure = Annotated[
     bool, typer.Option("--measure", help="Measure its goals, what its expectations speak of, and its recorded light.")

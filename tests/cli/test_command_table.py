@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -12,7 +13,7 @@ from commanding import Pico
 from pico_cli import commands
 from pico_cli.app import build
 from pico_cli.at_once.help import help_text
-from pico_cli.commands import files
+from pico_cli.commands import HEADINGS, LAST, files, summary
 from pico_cli.main import main
 from pico_cli.names import MOVED, RESERVED, SELDOM
 
@@ -94,3 +95,17 @@ def test_help_is_also_a_word(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["help"]) == 0
     assert capsys.readouterr().out == help_text() + "\n"
     assert main(["help", "nosuch"]) == 1
+
+
+def test_each_command_declares_a_place_of_its_own_in_the_help() -> None:
+    """Read as Python reads them, not as the help does: a declaration that the help misses would be missed here, too."""
+    places = {}
+    for name, path in files().items():
+        assigned = [node for node in ast.parse(Path(path).read_text()).body if isinstance(node, ast.Assign)]
+        declared = {node.targets[0].id: node.value.value for node in assigned if isinstance(node.value, ast.Constant)
+                    and isinstance(node.targets[0], ast.Name)}  # fmt: skip
+        assert declared["HEADING"] in HEADINGS and 0 < declared["ORDER"] < LAST, name
+        places.setdefault((declared["HEADING"], declared["ORDER"]), []).append(name)
+    assert [names for names in places.values() if len(names) > 1] == [], "two commands in one place"
+    shown = [name for heading in HEADINGS for name in summary()[heading]]
+    assert shown == [names[0] for _, names in sorted(places.items(), key=lambda at: (HEADINGS.index(at[0][0]), at[0]))]

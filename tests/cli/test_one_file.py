@@ -20,7 +20,7 @@ from pico.resources import catalog_dir, labs_dir
 
 ROOT = Path(__file__).resolve().parents[2]
 
-BLINK = '''"""The main job, 3: `pico blink-twice`."""
+BLINK = '''"""`pico blink-twice`."""
 
 from __future__ import annotations
 
@@ -32,6 +32,9 @@ import typer
 
 from pico_cli.arguments import Component
 from pico_cli.session import Session
+
+HEADING = "The main job"
+ORDER = 25
 
 How = Annotated[str, typer.Option("--how", metavar="slowly|fast", help="At what pace.")]
 Where = Annotated[Path | None, typer.Option(metavar="FILE", help="Where it is told.")]
