@@ -74,12 +74,12 @@ async def dialled(port: int, bench: str, key: str, fenced: int = 0) -> AsyncIter
 def edge(root: Path, note: Path | None) -> None:
     """Serve the bench of the lab in `root`: the table that `note` leads to, or a simulated one."""
     from pico.backends.hardware.opening import bench
+    from pico.base.clock import now_ms as utc_now
     from pico.edge import own_lab
     from pico.edge.link.server import edge_of, serve
     from pico.edge.local import LocalEdge
     from pico.edge.network.enrolment import read_enrolment
     from pico.edge.network.uplink import Uplink
-    from pico.runs.journal import utc_now  # to the millisecond
 
     enrolment = read_enrolment(BenchPlace(root, "sim"))
     assert enrolment is not None

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 import typer
 
+from pico.base import clock
 from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Fidelity, LockTimeout, Yes, group
@@ -111,7 +112,7 @@ def _time(text: str | None) -> datetime | None:
     try:
         if ":" in text and "T" not in text and " " not in text:
             return view.next_time(text)
-        return datetime.fromisoformat(text).astimezone()
+        return clock.parse(text).astimezone()
     except ValueError:
         hint = "write 22:00, or 2026-11-24T22:00"
         raise PicoError(error("usage", f"`{text[:40]}` is no time", hint=hint)) from None

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pico.base import clock
 from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Component, DryRun, Yes
@@ -85,15 +86,13 @@ def swap(
 
 def _known(given: dict[str, Value], sigma: str | None, measured: str | None, valid_for: str | None) -> Known | None:
     """Return how well what is given is known, None where nobody says."""
-    from datetime import UTC, datetime
-
     from pico.model.lab import Known
 
     said = [word for word in (sigma, measured, valid_for) if word]
     if said and (len(given) != 1 if sigma else not given):
         hint = 'such as `--focal-length "100.3 mm" --sigma "0.2 mm"`, one number with its sigma at a time'
         raise PicoError(error("usage", "--sigma, --measured and --valid-for say how a number was measured", hint=hint))
-    today = datetime.now(UTC).date().isoformat()
+    today = clock.today()
     deviation = next(iter(_pairs([f"sigma={sigma}"]).values())) if sigma else None
     return Known(at=measured or today, sigma=deviation, valid_for=valid_for) if said else None
 

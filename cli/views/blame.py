@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Any
 
+from pico.base import clock
 from pico.history.blame.blamed import Blamed, BlamedLeaf, LeafChange
 from pico.history.blame.how import How
 from pico.history.lab.notes import Note
@@ -51,7 +51,7 @@ def _turn(turn: LeafChange, form: str) -> list[str]:
     short = turn.commit[:7]
     name = short if turn.name in ("", short) else f"{short} {shorten(turn.name, 14)}"
     earlier = " or earlier" if turn.earlier else ""
-    when = datetime.fromisoformat(turn.time).strftime(form)
+    when = format(clock.parse(turn.time), form)
     return [paint("yellow", name) + earlier, when, said(turn.how), shorten(turn.author, 16), turn.summary]
 
 

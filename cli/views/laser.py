@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from datetime import datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.model.arming import Arming
 from pico.model.record import as_json
 
@@ -58,16 +59,16 @@ def sentence(given: Arming) -> str:
 
 def local(text: str) -> str:
     """Return a time as clocks here show it: the day where that is not today."""
-    at = datetime.fromisoformat(text).astimezone()
-    today = at.date() == datetime.now().astimezone().date()
+    at = clock.parse(text).astimezone()
+    today = at.date() == clock.here().date()
     return f"{at:%H:%M}" if today else f"{at:%Y-%m-%d %H:%M}"
 
 
 def next_time(text: str) -> datetime:
     """Return the next time that clocks here show `text` (22:00); raises ValueError for what is no such time."""
-    now = datetime.now().astimezone()
-    of_day = datetime.strptime(text, "%H:%M")
-    at = now.replace(hour=of_day.hour, minute=of_day.minute, second=0, microsecond=0)
+    now = clock.here()
+    hour, minute = clock.parse_time_of_day(text)
+    at = now.replace(hour=hour, minute=minute, second=0, microsecond=0)
     return at if at > now else at + timedelta(days=1)
 
 

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime, timedelta
+from datetime import timedelta
 from typing import Any
+
+from pico.base import clock
 
 from .style import ago, inert, listed
 
@@ -28,7 +30,7 @@ def _queue(found: Mapping[str, Any]) -> str:
 
 def _since(holder: Mapping[str, Any]) -> str:
     """Return since when somebody has it, by the coordinator's clock alone: that of this computer may be another one."""
-    now = datetime.now(UTC)
+    now = clock.here()
     return ago((now - timedelta(seconds=holder["had"])).isoformat(), now)
 
 

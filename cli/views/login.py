@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from datetime import UTC, datetime
 from typing import Any
+
+from pico.base import clock
 
 from .style import inert, listed
 
@@ -26,4 +27,4 @@ def data(url: str, me: Mapping[str, Any]) -> dict[str, Any]:
 def _until(me: Mapping[str, Any]) -> str | None:
     """Return when a token is over, as ISO 8601; it comes as that, or as seconds since 1970."""
     at = me.get("expires_at")
-    return datetime.fromtimestamp(at, UTC).strftime("%Y-%m-%dT%H:%M:%SZ") if isinstance(at, int | float) else at
+    return clock.as_text(clock.from_epoch(at)) if isinstance(at, int | float) else at

@@ -6,9 +6,10 @@ import os
 import re
 import sys
 from collections.abc import Sequence
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import Any, TextIO
 
+from pico.base import clock
 from pico.model.state import is_reference, said
 
 WIDTH = 100
@@ -143,7 +144,7 @@ def seconds(value: float) -> str:
 
 def ago(moment: str, now: datetime | None = None) -> str:
     """Return how long ago a moment (ISO 8601) was: `just now`, `40 s ago`, `3 min ago`, `2 h ago`, `5 d ago`."""
-    past = ((now or datetime.now(UTC)) - datetime.fromisoformat(moment)).total_seconds()
+    past = ((now or clock.here()) - clock.parse(moment)).total_seconds()
     if past < 10:
         return "just now"
     size, unit = next((s, u) for s, u in ((86400, "d"), (3600, "h"), (60, "min"), (1, "s")) if past >= s)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from datetime import datetime
 from typing import Any
+
+from pico.base import clock
 
 from .style import columns, paint
 
@@ -57,7 +58,7 @@ def _intact(audit: Row) -> str:
 
 
 def _when(seconds: float) -> str:
-    return datetime.fromtimestamp(seconds).strftime("%Y-%m-%d %H:%M")
+    return f"{clock.from_epoch(seconds).astimezone():%Y-%m-%d %H:%M}"
 
 
 def data(

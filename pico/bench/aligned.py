@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from datetime import datetime
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Protocol
 
-from pico.edge.lease import utc_now
+from pico.base import clock
 from pico.model.diff import value_distance
 from pico.model.goal import Goal
 from pico.model.observation import Observation
@@ -92,7 +91,7 @@ def stands(
         return tuple(dark)
     records = since_last_sought(memory, goals) if memory else ()
     took = {name: _takes(setup, name, goal, records) for name, goal in goals.items()} if timed else {}
-    return (*alignments(setup, seen, records, utc_now(), took), *dark)
+    return (*alignments(setup, seen, records, clock.now(), took), *dark)
 
 
 def experience(opened: Remembering, name: str, goal: Goal, algorithm: str) -> float | None:
@@ -181,7 +180,7 @@ def _alignment(
         return standing("lost", str(data.get("why") or "it did not come to its end"), end.at, data.get("last"))
     last = data.get("last")
     upset = _upset_since(setup, seen, goal, _begun_since(records, end))
-    old = bool(goal.valid_for) and _age(end.at, now) > convert(goal.valid_for or "0 s", "s")
+    old = bool(goal.valid_for) and clock.seconds_between(end.at, now) > convert(goal.valid_for or "0 s", "s")
     reasons = {
         "it was another goal then": _wanted(begun.data["arguments"].get("what", {})) != _wanted(as_json(goal)),
         (other := _swapped(setup, seen, goal, begun.data["arguments"])): bool(other),
@@ -224,10 +223,6 @@ def _tells(begun: JournalRecord, end: JournalRecord) -> bool:
     if _verifies(begun, str(begun.data["arguments"]["goal"])):
         return end.kind == "done" and "met" in (end.data.get("data") or {})
     return end.kind in ("done", "failed", "unknown", "resolved")
-
-
-def _age(then: str, now: str) -> float:
-    return (datetime.fromisoformat(now) - datetime.fromisoformat(then)).total_seconds()
 
 
 def _begun_since(records: Sequence[JournalRecord], end: JournalRecord) -> list[JournalRecord]:

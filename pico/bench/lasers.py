@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from datetime import UTC, datetime, timedelta
+from datetime import datetime, timedelta
 from typing import TYPE_CHECKING
 
+from pico.base import clock
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
@@ -60,8 +61,12 @@ class Lasers:
             row = self._row(seen, name)
             one = kept.get(name)
             if one is not None:
-                given = one.arming if one.arming and not policy.over(self.opened.setup, one.arming, _now()) else None
-                row = replace(row, arming=given, broken=one.broken, begun=given is not None and given.begins <= _now())
+                given = (
+                    one.arming if one.arming and not policy.over(self.opened.setup, one.arming, clock.now()) else None
+                )
+                row = replace(
+                    row, arming=given, broken=one.broken, begun=given is not None and given.begins <= clock.now()
+                )
             found.append(row)
         return tuple(found)
 
@@ -101,12 +106,13 @@ class Lasers:
         if role is None:
             why = policy.needless if now.lets in ("low", "waived") else policy.nobody
             raise PicoError(why(setup, who, laser, of, hours), ExitCode.DENIED)
-        start = begins or datetime.now(UTC).replace(microsecond=0)
+        start = begins or clock.parse(clock.now())
         given = Arming(
-            laser=laser, by=who, role=role, laser_class=of, begins=_text(start),
-            ends=_text(start + timedelta(hours=hours)), backend=self.opened.backend_name, unattended=unattended or None,
+            laser=laser, by=who, role=role, laser_class=of, begins=clock.as_text(start),
+            ends=clock.as_text(start + timedelta(hours=hours)), backend=self.opened.backend_name,
+            unattended=unattended or None,
         )  # fmt: skip
-        if wrong := policy.refusal(setup, given, _now()):
+        if wrong := policy.refusal(setup, given, clock.now()):
             raise PicoError(wrong, ExitCode.DENIED)
         return given
 
@@ -184,11 +190,3 @@ def person_of(opened: Opened) -> str:
     from pico.history.git.command import answer
 
     return answer(opened.root, ["config", "user.name"]).strip()
-
-
-def _now() -> str:
-    return _text(datetime.now(UTC))
-
-
-def _text(at: datetime) -> str:
-    return at.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.bench.drifting.morning import Morning, Moved, Read, Survey
 from pico.bench.drifting.readings import DARK, readings_of
 from pico.bench.drifting.references import Reference, keep, reference_for
@@ -18,7 +19,6 @@ from pico.bench.plans import Plans
 from pico.diagnosis.quantities import Quantity, Shot
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.emission import unlicensed
-from pico.edge.lease import utc_now
 from pico.model.plan import UNARMED
 
 if TYPE_CHECKING:
@@ -131,7 +131,7 @@ class Mornings:
         got = tuple(read.got(q) for q in survey.quantities)
         took = sum(e.data.get("seconds") or 0.0 for e in events if e.kind == "operation_done")
         found = Morning(
-            report.run or "", utc_now(), took, lacks=survey.chosen.lacks, cut_short=read.cut_short,
+            report.run or "", clock.now(), took, lacks=survey.chosen.lacks, cut_short=read.cut_short,
             set_back=_set_back(survey, events),
         )  # fmt: skip
         found = compared(survey, found, read, got, self._records(survey))

@@ -7,11 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.bench.auditing import case_of
 from pico.bench.cut_short import cut_short
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
-from pico.edge.lease import utc_now
 from pico.kernels.pipeline import source_of
 from pico.manifest.file_names import EXCLUDED
 from pico.model.address import called_now, read_addresses, renamed_state, renaming_of
@@ -107,7 +107,7 @@ class Plans:
             source=manifests.source,
         )  # fmt: skip
         seen = self.opened.observe()
-        old = expired(self.opened.setup, made_at(folder.root), utc_now())
+        old = expired(self.opened.setup, made_at(folder.root), clock.now())
         told = (*cut_short(self.opened, seen), *_strangers(seen), *old, *manifests.told)
         return self.to_state(seen, goal, told=told, calibration=calibration_digest(folder.root))
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.cameras.board import board_sheet, datum_sheets, photograph_sheets
 from pico.cameras.postures import Rests, postures, rests, seen_by
 from pico.model.pose import Pose
@@ -67,7 +67,7 @@ def calibrate(
         views, tools = _glances(setup, arms[robot], robot, (nominal[name], true[name]), offsets, random)
         eye = hand_eye(views, tools, nominal[name], found.lying.get(robot))
         cameras[name], residuals[name] = eye.camera, eye.residual
-    made = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    made = clock.now()
     accuracy = Accuracy(position=max(0.02, round(found.position, 3)))
     return Calibration(cameras, accuracy, residuals, made, found.arms)
 

@@ -14,9 +14,9 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from contextvars import ContextVar
-from datetime import UTC, datetime
 from pathlib import Path
 
+from pico.base.clock import now as clock_now
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, write_whole, writing
 from pico.edge.protocol import ENROLMENT, Granting, Holder, Lease
@@ -24,12 +24,6 @@ from pico.places import attachment
 from pico.places.attachment import require_attached
 from pico.places.bench import BenchPlace, hold, let_go
 from pico.places.lab import make_own_folder
-
-
-def utc_now() -> str:
-    """Return the time as ISO 8601, UTC, to the second."""
-    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-
 
 NAMED_WITHIN = 20
 """Hundredths of a second in which who takes the lock writes its name beside it."""
@@ -45,7 +39,7 @@ class BenchLock:
     They are those of the worktree that is attached to the bench; only there it can be taken.
     """
 
-    def __init__(self, place: BenchPlace, clock: Callable[[], str] = utc_now) -> None:
+    def __init__(self, place: BenchPlace, clock: Callable[[], str] = clock_now) -> None:
         self._place = place
         self._clock = clock
         self._file: int | None = None

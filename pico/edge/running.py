@@ -6,8 +6,8 @@ import asyncio
 import secrets
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
-from datetime import UTC, datetime
 
+from pico.base import clock
 from pico.execution.walk import Walk
 from pico.model.trace.event import Event
 from pico.model.trace.report import RunReport
@@ -51,4 +51,4 @@ class Running:
 
 def new_run_id() -> str:
     """Return the id of a run: the time in UTC, and six random characters."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(3)}"
+    return f"{clock.stamp()}-{secrets.token_hex(3)}"

@@ -14,10 +14,10 @@ import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.disk import write_whole
 from pico.edge import emission
@@ -155,7 +155,7 @@ class Alone:
                         await self._bring(why, moves=True)
 
     def _over(self, terms: Terms) -> str:
-        if datetime.fromisoformat(self._edge.now()) >= datetime.fromisoformat(terms.until):
+        if clock.seconds_between(terms.until, self._edge.now()) >= 0:
             return f"it was to end at {terms.until}"
         if self._edge.moving():
             self._heard = time.monotonic()

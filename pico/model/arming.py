@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import field
-from datetime import datetime
 from typing import Literal
 
+from pico.base import clock
 from pico.model.record import Format, record
 
 LaserClass = Literal["1", "2", "3R", "3B", "4"]
@@ -63,8 +63,7 @@ class Arming:
 
     def __post_init__(self) -> None:
         for name in ("begins", "ends"):
-            if datetime.fromisoformat(getattr(self, name)).tzinfo is None:
-                raise ValueError(f"`{name}` says no time zone")
+            clock.parse_zoned(getattr(self, name))
 
 
 @record

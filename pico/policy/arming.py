@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
-from datetime import datetime, timedelta
+from datetime import timedelta
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, error
 from pico.model.arming import Arming, ArmingPolicy, LaserClass, LaserRole, Licence, within
 from pico.model.plan import UNARMED
@@ -63,7 +64,7 @@ def refusal(setup: Setup, arming: Arming, now: str) -> Diagnostic | None:
     if arming.laser not in lasers(setup):
         hint = f"lasers here: {', '.join(lasers(setup)) or 'none'}"
         return error("unknown-component", f"there is no laser `{arming.laser[:40]}`", hint=hint)
-    begins, ends, at = (datetime.fromisoformat(t) for t in (arming.begins, arming.ends, now))
+    begins, ends, at = (clock.parse(t) for t in (arming.begins, arming.ends, now))
     hours = (ends - begins).total_seconds() / 3600
     if ends <= at or hours <= 0:
         return error(UNARMED, f"the arming of {arming.laser} ends before it begins", address=arming.laser)
@@ -88,7 +89,7 @@ def over(setup: Setup, arming: Arming, now: str) -> str:
 
 def at_its_end(arming: Arming, now: str) -> bool:
     """Return whether the time of an arming is up."""
-    return datetime.fromisoformat(now) >= datetime.fromisoformat(arming.ends)
+    return clock.seconds_between(arming.ends, now) >= 0
 
 
 def ended(setup: Setup, known: Arming | None, laser: str, by: str, backend: str, now: str) -> Arming:
@@ -102,7 +103,7 @@ def ended(setup: Setup, known: Arming | None, laser: str, by: str, backend: str,
 
 def in_force(setup: Setup, arming: Arming, backend: str, now: str) -> bool:
     """Return whether an arming counts now, on a backend."""
-    begun = datetime.fromisoformat(now) >= datetime.fromisoformat(arming.begins)
+    begun = clock.seconds_between(arming.begins, now) >= 0
     return begun and arming.backend == backend and not over(setup, arming, now)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from datetime import datetime, timedelta
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, error
 from pico.model.commissioning import CODE, STEPS, Basis, Commissioning, changed
 
@@ -21,7 +22,7 @@ def why_not(report: Commissioning | None, bench: str, basis: Basis, now: str) ->
 
 def until(report: Commissioning) -> datetime | None:
     """Return until when a report counts by its age, None where nothing was done yet."""
-    done = [datetime.fromisoformat(step.at) for name, step in report.steps.items() if name in STEPS]
+    done = [clock.parse(step.at) for name, step in report.steps.items() if name in STEPS]
     return min(done) + timedelta(days=report.days) if done else None
 
 
@@ -44,9 +45,9 @@ def _undone(report: Commissioning) -> Iterator[str]:
 
 
 def _aged(report: Commissioning, now: str) -> Iterator[str]:
-    at, days = datetime.fromisoformat(now), timedelta(days=report.days)
+    at, days = clock.parse(now), timedelta(days=report.days)
     for name in STEPS:
-        done = datetime.fromisoformat(report.steps[name].at) if name in report.steps else at
+        done = clock.parse(report.steps[name].at) if name in report.steps else at
         if at > done + days:
             yield f"{name} was done on {done:%Y-%m-%d}, and counts for {report.days:g} days"
         elif done > at + timedelta(days=1):

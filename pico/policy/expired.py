@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from datetime import UTC, datetime
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, warning
 from pico.model.quantities import convert
 from pico.model.setup import Setup
@@ -33,9 +33,7 @@ def expired(setup: Setup, calibrated: str, now: str) -> Iterator[Diagnostic]:
 
 def old(at: str, valid_for: str, now: str) -> bool:
     """Return whether what was measured `at` a day or time counts no more `now`."""
-    then, today = (datetime.fromisoformat(one) for one in (at, now))
-    aware = [one if one.tzinfo else one.replace(tzinfo=UTC) for one in (then, today)]
-    return (aware[1] - aware[0]).total_seconds() > float(convert(valid_for, "s"))
+    return clock.seconds_between(at, now) > float(convert(valid_for, "s"))
 
 
 def _swap(setup: Setup, name: str, number: str) -> str:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from datetime import UTC, datetime, timedelta
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.expressions import ExpressionError
 from pico.model.measurement import number_of
@@ -23,7 +24,7 @@ if TYPE_CHECKING:
 
 def local_now() -> datetime:
     """Return the time by the clock on the wall."""
-    return datetime.now().astimezone()
+    return clock.here()
 
 
 @dataclass

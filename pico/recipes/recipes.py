@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.manifest.text.source import Source
 from pico.recipes.doing import Doing
@@ -151,10 +151,11 @@ class Recipes:
         """Begin a run of a recipe with the values of all its parameters."""
         from pico.edge.running import new_run_id
 
-        at = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
         path = str(Path(recipe.path).resolve())
         texts = {p: t.decode("utf-8", "replace") for p, t in self.texts.items()}
-        return Log.begin(self.bench.place, About(new_run_id(), recipe.name, path, recipe.digest, arguments, at, texts))
+        return Log.begin(
+            self.bench.place, About(new_run_id(), recipe.name, path, recipe.digest, arguments, clock.now(), texts)
+        )
 
     def cut_short(self) -> tuple[About, ...]:
         """Return the runs of recipes that have no end, the latest first; a log that can't be read is left out."""

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import uuid
 from collections.abc import Iterator, Mapping, Sequence
-from datetime import datetime
 from types import MappingProxyType
 from typing import Any
 
+from pico.base import clock
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.runs.document import RecordedRun
@@ -48,7 +48,7 @@ def documents(run: RecordedRun, units: Mapping[str, str] = MappingProxyType({}))
                 "data": data, "timestamps": dict.fromkeys(data, at), "filled": {},
             }  # fmt: skip
     yield "stop", {
-        "uid": _id(run.document.id, "stop"), "run_start": start, "time": epoch(run.document.ended_at),
+        "uid": _id(run.document.id, "stop"), "run_start": start, "time": clock.epoch(run.document.ended_at),
         "exit_status": _STATUS[run.document.outcome], "reason": "", "num_events": counts,
     }  # fmt: skip
 
@@ -63,7 +63,7 @@ def units_of(setup: Setup) -> dict[str, str]:
 def _start(run: RecordedRun, uid: str) -> Document:
     d = run.document
     return {
-        "uid": uid, "time": epoch(d.started_at), "scan_id": d.number, "plan_name": d.goal, "pico_run": d.id,
+        "uid": uid, "time": clock.epoch(d.started_at), "scan_id": d.number, "plan_name": d.goal, "pico_run": d.id,
         "pico_lab": d.lab.name, "pico_lab_digest": d.lab.digest, "pico_commit": d.parent or "", "pico_plan": d.plan,
         "pico_state_before": d.state_before, "pico_state_after": d.state_after, "pico_cause": as_json(d.cause),
         "pico_evidence": d.evidence, "operator": d.operator, "versions": dict(d.versions),
@@ -87,7 +87,7 @@ def _transitions(run: RecordedRun) -> Stream:
             "seconds": float(event.data.get("seconds") or 0.0), "bench_time": event.t, "actor": event.actor or "",
             "state_before": event.before or "", "state_after": event.after or "",
         }  # fmt: skip
-        found.append((epoch(event.at), data, {"seconds": "s", "bench_time": "s"}))
+        found.append((clock.epoch(event.at), data, {"seconds": "s", "bench_time": "s"}))
     return found
 
 
@@ -101,7 +101,7 @@ def _measured(found: Sequence[Row], units: Mapping[str, str]) -> Iterator[tuple[
             yield (
                 _key(address),
                 [
-                    (epoch(row.at), {_key(key): data[key] for key in common}, _units(row, units))
+                    (clock.epoch(row.at), {_key(key): data[key] for key in common}, _units(row, units))
                     for row, data in zip(own, every, strict=True)
                 ],
             )
@@ -139,8 +139,3 @@ def _key(address: str) -> str:
 
 def _id(*words: str) -> str:
     return str(uuid.uuid5(_SPACE, "/".join(words)))
-
-
-def epoch(at: str) -> float:
-    """Return a time by the wall, ISO 8601, as seconds since 1970."""
-    return datetime.fromisoformat(at).timestamp()

@@ -12,6 +12,7 @@ import json
 from collections.abc import Collection, Iterable
 from datetime import datetime
 
+from pico.base import clock
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import deviation, diff_observed, value_deviation
 from pico.model.observation import Observation
@@ -124,7 +125,7 @@ def _last_said(
                 taken_back |= {(run, one) for run in undone}
                 continue
             causes = {cause.get("kind") for cause in told}
-            before = stood is not None and datetime.fromisoformat(success.at).replace(microsecond=0) <= stood
+            before = stood is not None and clock.parse(success.at).replace(microsecond=0) <= stood
             found[one] = before or bool(causes & set(DELIBERATE)) or _there(setup, state, one, success)
     return found
 

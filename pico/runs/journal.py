@@ -15,10 +15,10 @@ import sqlite3
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any, Literal
 
+from pico.base.clock import now_ms
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import refusing, unwritable
 from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
@@ -128,11 +128,6 @@ class Success:
     last: Mapping[str, float] | None = None
 
 
-def utc_now() -> str:
-    """Return the time as ISO 8601, UTC, to the millisecond."""
-    return datetime.now(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-
-
 def run_of(key: str) -> str:
     """Return the run id of a key; raises ValueError where it is not `run id/operation id/attempt`."""
     run, operation, attempt = key.split("/")
@@ -144,7 +139,7 @@ def run_of(key: str) -> str:
 class Journal:
     """The journal of one bench. Every method raises PicoError where the database is locked, damaged or not writable."""
 
-    def __init__(self, path: Path, clock: Callable[[], str] = utc_now, *, looking: bool = False) -> None:
+    def __init__(self, path: Path, clock: Callable[[], str] = now_ms, *, looking: bool = False) -> None:
         """Open or make it. `looking`: only to read what is there, also where the disk is full or read-only."""
         self.path = path
         self._clock = clock

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from pico.base.clock import epoch
 from pico.model.measurement import Measurement
-from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
 
 if TYPE_CHECKING:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any, Self
 
+from pico.base.clock import epoch
 from pico.bench.plans import written
 from pico.model.catalog import Tunable as Kind
 from pico.model.quantities import Value
 from pico.model.setpoint import read_value
 from pico.model.trace.report import RunReport
-from pico.runs.event_model import epoch
 from pico.scripting.protocol import Scripted
 from pico.scripting.status import Status
 

@@ -13,10 +13,10 @@ from bench_at import bench_at
 from coordinators import BENCH, Served
 from edges import Client, Connected, client, connected, refusal
 
+from pico.base.clock import now
 from pico.bench.bench import Bench
 from pico.control.leases import TTL
 from pico.diagnostics import ExitCode
-from pico.edge.lease import utc_now
 from pico.edge.network.enrolment import Enrolment
 from pico.edge.protocol import Job
 from pico.edge.remembering import Remembering
@@ -213,7 +213,7 @@ def test_an_edge_that_was_killed_during_a_run_closes_shutters_when_it_comes_back
     with Bench.open(root) as bench:
         bench.apply("e1")
         assert lit(bench.observe())
-    remembers = Remembering(bench_at(root), utc_now)
+    remembers = Remembering(bench_at(root), now)
     with connected(coordinator, root) as edge:  # of a run that ended what is as it should be stays
         until(lambda: edge.uplink._link is not None)
         assert lit(seen(edge))

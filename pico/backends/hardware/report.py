@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import json
-from datetime import datetime
 from pathlib import Path
 
+from pico.base import clock
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.model.commissioning import CODE, FILES, FORMAT, Commissioning
@@ -42,6 +42,5 @@ def _report(document: object) -> Commissioning:
 
     found: Commissioning = TypeAdapter(Commissioning).validate_python(FORMAT.lifted(document))
     for step in found.steps.values():
-        if datetime.fromisoformat(step.at).tzinfo is None:
-            raise ValueError(f"`{step.at[:40]}` names no time zone")
+        clock.parse_zoned(step.at)
     return found

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from datetime import datetime
 from typing import Any
 
+from pico.base import clock
 from pico.bench.commissioning.standing import HOURS, AtBench, Found, shortened
 from pico.diagnostics import PicoError, error
 from pico.model.commissioning import CODE
@@ -93,7 +93,7 @@ def _shift(a: Any, b: Any) -> float:
 
 
 def _hours(since: str, now: str) -> float:
-    return (datetime.fromisoformat(now) - datetime.fromisoformat(since)).total_seconds() / 3600
+    return clock.seconds_between(since, now) / 3600
 
 
 def _runs(at: AtBench) -> int:

@@ -9,6 +9,7 @@ from typing import Any, Literal
 from pico.backends.devices import EMULATED
 from pico.backends.hardware.device import HardwareDevice
 from pico.backends.hardware.report import read, write
+from pico.base import clock
 from pico.bench.bench import Bench
 from pico.bench.commissioning.instruments import devices, identities
 from pico.bench.commissioning.placing import pick_and_place
@@ -83,7 +84,7 @@ class Walk:
             more = f" ({len(exc.diagnostics)} in all)" if len(exc.diagnostics) > 1 else ""
             why = (*why_not(report, self.name, of_then, self.edge.now()), f"{exc.diagnostics[0].summary}{more}")
         ends = until(report) if report else None
-        said = ends.strftime("%Y-%m-%dT%H:%M:%SZ") if ends else ""
+        said = clock.as_text(ends) if ends else ""
         return Standing(bench=self.name, file=FILES[self.name], report=report, why=why, until=said)
 
     def todo(self) -> tuple[Step, ...]:

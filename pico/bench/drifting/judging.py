@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import datetime
 from typing import TYPE_CHECKING
 
+from pico.base import clock
 from pico.bench.drifting.drift import by_hand, who
 from pico.bench.drifting.expected import Expected, expected, unsure
 from pico.bench.drifting.morning import Morning, Moved, Read, Survey
@@ -63,8 +63,9 @@ def compared(
     if changed and not first:
         first = (repair(survey.nominal.setup, None, values),)
     return replace(
-        found, reference=reference.at, age=_age(reference.at, found.at), readings=reads, moved=moved, causes=causes,
-        repairs=repairs, suspects=suspects, blind=verdict.blind if verdict else (),
+        found, reference=reference.at, age=clock.seconds_between(reference.at, found.at),
+        readings=reads, moved=moved, causes=causes, repairs=repairs, suspects=suspects,
+        blind=verdict.blind if verdict else (),
         unusual=changed or bool(lost) or any(m.by_hand for m in moved),
         repair=first[0] if first else unread(lost[0].shots[0].address) if lost else "",
     )  # fmt: skip
@@ -135,7 +136,3 @@ def _read(
         now.sigma if now else None, None if math.isnan(change) else change, shift.why if now else shift.why or why,
         then.value + shift.shift if then and shift.shift else None,
     )  # fmt: skip
-
-
-def _age(then: str, now: str) -> float:
-    return (datetime.fromisoformat(now) - datetime.fromisoformat(then)).total_seconds()

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from datetime import UTC, datetime
+from datetime import datetime
 from typing import TYPE_CHECKING
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.lab.folder import LabFolder
 from pico.history.lab_history import LabHistory
@@ -44,7 +45,7 @@ class Twins:
         found = learn(setup, told, had, 0.0 if self.fidelity == "kinematic" else 1.0)
         weakest = min((run.evidence for run in chosen), key=lambda one: STRENGTH[one])
         learned = replace(
-            found.learned, made_at=f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}", evidence=weakest,
+            found.learned, made_at=clock.now(), evidence=weakest,
             runs=tuple(sorted(run.id for run in chosen)), looks=looks_of(told),
         )  # fmt: skip
         learned, rows = self._looked(told, learned, had)
@@ -110,8 +111,7 @@ class Twins:
 
 def _moment(text: str) -> datetime:
     try:
-        found = datetime.fromisoformat(text)
+        return clock.parse_utc(text)
     except ValueError:
         hint = "as `2026-11-20` or `2026-11-20T08:00`, UTC"
         raise PicoError(error("usage", f"`{text[:40]}` is no day and no time", hint=hint)) from None
-    return found if found.tzinfo else found.replace(tzinfo=UTC)

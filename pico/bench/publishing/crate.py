@@ -8,10 +8,10 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from datetime import datetime
 from typing import Any
 from urllib.parse import quote
 
+from pico.base import clock
 from pico.bench.publishing.parts import File, Revision
 from pico.model.trace.run import Run
 from pico.runs.files import run_folder
@@ -216,7 +216,7 @@ def _tally(run: Run) -> str:
 
 def _time(moment: str) -> str:
     """Return a moment with its offset in digits, for not every reader knows `Z`."""
-    return datetime.fromisoformat(moment).isoformat(timespec="milliseconds")
+    return clock.parse(moment).isoformat(timespec="milliseconds")
 
 
 def _action(run: Run) -> str:

@@ -14,8 +14,9 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, PicoError, warning
-from pico.edge.lease import user, utc_now
+from pico.edge.lease import user
 from pico.edge.network.opening import remembered
 from pico.model.record import as_json, record
 
@@ -38,7 +39,7 @@ def keep(place: Place, command: str) -> Callable[[], None]:
     """Write that a command was approved, and return what to call at its end. A disk that is full, or a folder that
     can't be written to, keeps no command from running."""
     path = _path(place)
-    found = Intention(command=command, at=utc_now(), operator=user(), last=_last(place))
+    found = Intention(command=command, at=clock.now(), operator=user(), last=_last(place))
     try:
         file = path.open("a+", encoding="utf-8")  # of a bench that has no folder yet there is nothing to undo
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)

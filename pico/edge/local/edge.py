@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 from pico.backends.device import Capabilities, Device
 from pico.backends.devices import opener
 from pico.backends.world import World
+from pico.base.clock import now as clock_now
 from pico.diagnostics import PicoError, error
 from pico.edge import own_lab
 from pico.edge.contract import Edge
 from pico.edge.kept_lab import KeptLab
-from pico.edge.lease import BenchLock, utc_now
+from pico.edge.lease import BenchLock
 from pico.edge.local.apparatus import Apparatus
 from pico.edge.local.custody import ADOPTING, Custody
 from pico.edge.local.licensing import Licensing
@@ -51,7 +52,7 @@ class LocalEdge(Edge):
 
     def __init__(
         self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], lab: OwnLab | None = None,
-        clock: Callable[[], str] = utc_now,
+        clock: Callable[[], str] = clock_now,
     ) -> None:  # fmt: skip
         self._kept, self.lock = KeptLab(place, lab, clock), BenchLock(place, clock)
         self.apparatus = Apparatus(setup, place, opening, clock)
@@ -266,7 +267,7 @@ class LocalEdge(Edge):
 
 def embedded(
     setup: Setup, place: BenchPlace, fidelity: str, lab: OwnLab | None = None,
-    clock: Callable[[], str] = utc_now,
+    clock: Callable[[], str] = clock_now,
 ) -> LocalEdge:  # fmt: skip
     """Return the edge in this process of the bench at `place`, see `LocalEdge`; raises PicoError for what
     there is not."""

@@ -14,10 +14,11 @@ import subprocess
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
-from datetime import datetime, timedelta, timezone
+from datetime import timedelta, timezone
 from pathlib import Path
 from types import MappingProxyType
 
+from pico.base import clock
 from pico.diagnostics import PicoError, error
 from pico.disk import refusing, spoken, unnamed, unwritable
 from pico.history.git.holders import held
@@ -153,8 +154,8 @@ def author(root: Path) -> tuple[str, str]:
     name, _, when = said.strip().rpartition("> ")
     seconds, _, zone = when.partition(" ")
     away = timedelta(hours=int(zone[1:3]), minutes=int(zone[3:5])) * (-1 if zone.startswith("-") else 1)
-    day = datetime.fromtimestamp(int(seconds), timezone(away))
-    return name.partition(" <")[0], day.strftime("%Y-%m-%d")
+    day = clock.from_epoch(int(seconds)).astimezone(timezone(away))
+    return name.partition(" <")[0], f"{day:%Y-%m-%d}"
 
 
 def index(root: Path, folder: Path) -> Path:

@@ -9,6 +9,7 @@ from datetime import datetime, timedelta, timezone
 from pathlib import Path
 from typing import Any
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.disk import disk_trouble
 from pico.history.git import command as git
@@ -423,7 +424,7 @@ class Repository:
             summary=message.partition("\n")[0],
             message=message,
             author=f"{author.name} <{author.email}>",
-            time=datetime.fromtimestamp(author.time, zone),
+            time=clock.from_epoch(author.time).astimezone(zone),
             refs=refs.get(name, ()),
         )
 

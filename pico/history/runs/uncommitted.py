@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
-from datetime import datetime
 from pathlib import Path
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, PicoError
 from pico.edge.network.opening import holder_of, remembered
 from pico.edge.network.remotes import Far
@@ -205,7 +205,7 @@ def _goes_on(folder: LabFolder, run: RunRecord) -> bool:
 
 def _seconds(moment: str) -> float:
     try:
-        return datetime.fromisoformat(moment).timestamp()
+        return clock.epoch(moment)
     except ValueError:
         return 0.0
 

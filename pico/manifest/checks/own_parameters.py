@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
-from datetime import datetime
 from functools import partial
 
+from pico.base import clock
 from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.manifest.checks.parameters import wrong_parameters
 from pico.manifest.text.places import where, where_key
@@ -39,7 +39,7 @@ def _measured(document: Document, setup: Setup, name: str, known: Mapping[str, K
             yield error("value", text, hint=hint, source=where_key(document, "inventory", name, "measured", number))
             continue
         try:
-            datetime.fromisoformat(one.at)
+            clock.parse(one.at)
         except ValueError:
             yield error("value", f"`{one.at[:40]}` is no date", hint="`2026-11-20`", source=at("at"))
         if one.valid_for is not None and (wrong := lasting(one.valid_for)):

@@ -15,9 +15,9 @@ import secrets
 from collections.abc import AsyncIterator, Coroutine, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from typing import Any
 
+from pico.base import clock
 from pico.control.gate import Command, Record
 from pico.control.leases import HEARTBEAT, Asker, Grant, Turn
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -434,4 +434,4 @@ def _by(call: Call) -> Document:
 
 
 def _time(seconds: float) -> str:
-    return datetime.fromtimestamp(seconds, UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return clock.as_text(clock.from_epoch(seconds))
