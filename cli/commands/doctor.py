@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -19,27 +19,52 @@ if TYPE_CHECKING:
     from pico.diagnostics import Diagnostic
 
 
-def doctor(context: typer.Context) -> int:
-    """Check git, its merge driver and the manifests; show versions.
+def doctor(
+    context: typer.Context,
+    journal: Annotated[
+        bool, typer.Option("--journal", help="Show what can be salvaged of a damaged journal, and what would be lost.")
+    ] = False,
+    yes: Annotated[
+        bool, typer.Option("--yes", "-y", help="With --journal: write the new journal; the old one is set aside.")
+    ] = False,
+) -> int:
+    """Check git, its merge driver, the manifests and all that PICO keeps in `.pico`; show versions.
 
     Examples:
       pico doctor
+      pico doctor --journal
+      pico doctor --journal --yes
     """
     from pico.history.git.attributes import checkup
     from pico.history.lab.missing_files import missing_files
     from pico.manifest.folders import check_folder
 
     session = Session.of(context)
+    if journal:
+        return _journal(session, yes)
     checked = check_folder(session.folder, beside=missing_files)
-    found = (*checkup(session.folder), *checked.diagnostics, *_lost(session.folder))
+    found = (*checkup(session.folder), *checked.diagnostics, *_kept(session.folder))
     session.tell(found)
     session.show(view, found)
     return ExitCode.ERROR if any(d.severity == "error" for d in found) else ExitCode.DONE
 
 
-def _lost(folder: Path) -> tuple[Diagnostic, ...]:
-    """Return which benches of the lab around a folder are gone, as Git's own folder knows."""
+def _journal(session: Session, yes: bool) -> int:
+    from pico.bench.mending.journal import salvage_journal
+    from pico.manifest.load import find_lab
+
+    from ..views import salvage
+
+    found = salvage_journal(session.here(find_lab(session.folder)), write=yes)
+    session.show(salvage, found)
+    return ExitCode.CHANGES if found.damaged and found.aside is None else ExitCode.DONE
+
+
+def _kept(folder: Path) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with what PICO keeps of the lab around a folder: damaged files, and benches that are gone,
+    as Git's own folder knows."""
     from pico.backends.devices import shipped
+    from pico.bench.mending.files import damaged_files
     from pico.manifest.load import find_lab
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench
@@ -48,4 +73,9 @@ def _lost(folder: Path) -> tuple[Diagnostic, ...]:
         root = find_lab(folder)
     except PicoError:  # which is said already
         return ()
-    return tuple(found for name in shipped() if (found := lost_bench(BenchPlace(root, name))))
+    found = damaged_files(root)
+    try:
+        lost = tuple(one for name in shipped() if (one := lost_bench(BenchPlace(root, name))))
+    except PicoError:  # what Git's own folder knows is damaged, and told
+        lost = ()
+    return (*found, *lost)

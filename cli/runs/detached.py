@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.base.state_files import DETACHED
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import write_whole
 
@@ -98,12 +99,12 @@ def _desk(far: Far) -> str:
 
 
 def _kept(far: Far) -> Path:
-    return far.folder / "detached"
+    return DETACHED.path(far.folder)
 
 
 def _sent(far: Far) -> tuple[Sent, ...]:
     try:
         found = [line.split() for line in _kept(far).read_text(encoding="ascii").splitlines()]
-    except OSError:
+    except (OSError, UnicodeError):
         return ()
     return tuple(Sent(*words) for words in found if len(words) == 2)

@@ -14,7 +14,10 @@ from .version import versions
 
 def text(found: Sequence[Diagnostic]) -> str:
     """Return the verdict, and the versions."""
-    well = "All is well: git knows the drivers of merge and diff, they start, the manifests are valid."
+    well = (
+        "All is well: git knows the drivers of merge and diff, they start, the manifests are valid, "
+        "and so is all that PICO keeps in .pico."
+    )
     verdict = f"{count(len(found), 'thing')} to look at." if found else well
     return "\n".join([verdict, "", *columns([[name, known or "not installed"] for name, known in versions().items()])])
 

@@ -7,23 +7,20 @@ no truth: whoever looks asks the cameras first, and the pads say whether a hand 
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from contextlib import suppress
-from pathlib import Path
 from typing import Any
 
+from pico.base.state_file import StateFile
+from pico.base.state_files import HANDS, SEEN
 from pico.diagnostics import PicoError
-from pico.disk import write_whole
 from pico.model.observation import Observation, Uncertainty
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
-from pico.model.record import Format, as_json, record
+from pico.model.record import as_json, record
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
 
-FORMAT = Format("pico.seen")
-HANDS = Format("pico.hands")
 SWAPPED = "marker-swapped"
 """The code of a problem: a part may be another one than its marker says."""
 
@@ -54,19 +51,19 @@ class Taken:
 
 def recall_hands(place: BenchPlace) -> dict[str, Taken]:
     """Return what hands took last, by robot; nothing where that is not known."""
-    try:
-        data = HANDS.lifted(json.loads(_hands_path(place).read_text(encoding="utf-8")))
-        return {
-            robot: Taken(component=str(taken["component"]), pose=Pose(**taken["pose"]))
-            for robot, taken in data["hands"].items()
-        }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return {}
+    return HANDS.read(HANDS.path(place.folder), _taken) or {}
+
+
+def _taken(data: Mapping[str, Any]) -> dict[str, Taken]:
+    return {
+        robot: Taken(component=str(taken["component"]), pose=Pose(**taken["pose"]))
+        for robot, taken in data["hands"].items()
+    }
 
 
 def remember_hands(place: BenchPlace, hands: Mapping[str, Taken]) -> None:
     """Keep what hands take, before they do; where that can't be written, the journal still knows the component."""
-    _write(_hands_path(place), {"schema": HANDS.schema, "hands": as_json(hands)})
+    _write(HANDS, place, {"hands": as_json(hands)})
 
 
 def repeated(setup: Setup, component: str) -> Uncertainty:
@@ -84,30 +81,21 @@ def placed_at(setup: Setup, operation: Operation, result: OperationResult) -> La
     return LastSeen(pose=pose, uncertainty=repeated(setup, name), time=time, placed=True)
 
 
-def _hands_path(place: BenchPlace) -> Path:
-    return place.folder / "hands.json"
-
-
-def memory_path(place: BenchPlace) -> Path:
-    """Return where the memory of a bench is kept."""
-    return place.folder / "seen.json"
-
-
 def recall(place: BenchPlace) -> dict[str, LastSeen]:
     """Return where parts were last; nothing where the file is missing or can't be read, for it is only a memory."""
-    try:
-        data = FORMAT.lifted(json.loads(memory_path(place).read_text(encoding="utf-8")))
-        return {
-            name: LastSeen(
-                pose=Pose(**part["pose"]),
-                uncertainty=Uncertainty(**part["uncertainty"]),
-                time=float(part["time"]),
-                placed=bool(part["placed"]),
-            )
-            for name, part in data["parts"].items()
-        }
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return {}
+    return SEEN.read(SEEN.path(place.folder), _parts) or {}
+
+
+def _parts(data: Mapping[str, Any]) -> dict[str, LastSeen]:
+    return {
+        name: LastSeen(
+            pose=Pose(**part["pose"]),
+            uncertainty=Uncertainty(**part["uncertainty"]),
+            time=float(part["time"]),
+            placed=bool(part["placed"]),
+        )
+        for name, part in data["parts"].items()
+    }
 
 
 def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen]:
@@ -127,10 +115,9 @@ def noted(last: Mapping[str, LastSeen], seen: Observation) -> dict[str, LastSeen
 
 def remember(place: BenchPlace, parts: Mapping[str, LastSeen]) -> None:
     """Keep where parts were last; where that can't be written it is forgotten, which harms nothing."""
-    _write(memory_path(place), {"schema": FORMAT.schema, "parts": as_json(parts)})
+    _write(SEEN, place, {"parts": as_json(parts)})
 
 
-def _write(path: Path, document: Mapping[str, Any]) -> None:
-    data = json.dumps(document, separators=(",", ":"), sort_keys=True).encode()
+def _write(file: StateFile, place: BenchPlace, document: Mapping[str, Any]) -> None:
     with suppress(PicoError):
-        write_whole(path, data, folders=True, durable=False)
+        file.write(file.path(place.folder), document, durable=False)

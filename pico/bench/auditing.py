@@ -6,17 +6,20 @@ They may be deleted at any time; one that is damaged answers nothing.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
+from pico.base.state_file import StateFile
+from pico.base.state_files import AUDIT, CLAIMS
 from pico.bench.opened import Opened
-from pico.disk import write_whole
+from pico.diagnostics import PicoError
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.record import as_json
 from pico.model.state import LabState
+from pico.places.lab import FOLDER
 from pico.policy.goals import GoalRecord
 from pico.policy.judging.case import PlanCase
 
@@ -34,7 +37,7 @@ def case_of(opened: Opened, plan: Plan, seen: Observation) -> PlanCase:
     """Return a plan as its judges see it, with what this bench knows beside it."""
 
     def recall(kind: str, key: str, read: Callable[[Any], T], find: Callable[[], T] | None) -> T | None:
-        return _kept(opened.root / ".pico" / f"{kind}.json", key, read, find)
+        return _kept({"audit": AUDIT, "claims": CLAIMS}[kind], opened.root, key, read, find)
 
     def stand(state: LabState) -> Sequence[Alignment]:
         from pico.bench.aligned import standing
@@ -48,9 +51,10 @@ def case_of(opened: Opened, plan: Plan, seen: Observation) -> PlanCase:
     return PlanCase(setup, plan, seen, doses=doses, goals=goals, recall=recall)
 
 
-def _kept(path: Path, key: str, read: Callable[[Any], T], find: Callable[[], T] | None) -> T | None:
-    """Return what is kept under a key in a file; where nothing is, find and keep it, or None."""
-    known = _read(path)
+def _kept(file: StateFile, root: Path, key: str, read: Callable[[Any], T], find: Callable[[], T] | None) -> T | None:
+    """Return what is kept under a key in a file; if nothing is, find and keep it, or None."""
+    path = file.path(root / FOLDER)
+    known = file.read(path, lambda document: _known(document, path.stem)) or {}
     if key in known:
         try:
             return read(known[key])
@@ -60,23 +64,11 @@ def _kept(path: Path, key: str, read: Callable[[Any], T], find: Callable[[], T] 
         return None
     found = find()
     kept = {**dict(list(known.items())[-MOST + 1 :]), key: as_json(found)}
-    _write(path, {"version": VERSION, path.stem: kept})
+    with suppress(OSError, PicoError):  # a folder that can't be written to keeps nothing
+        path.parent.mkdir(exist_ok=True)
+        file.write(path, {"version": VERSION, path.stem: kept}, durable=False)  # it may be lost at any time
     return found
 
 
-def _read(path: Path) -> Mapping[str, Any]:
-    try:
-        content = json.loads(path.read_bytes())
-        return dict(content[path.stem]) if content["version"] == VERSION else {}
-    except (OSError, ValueError, KeyError, TypeError):
-        return {}
-
-
-def _write(path: Path, content: Mapping[str, Any]) -> None:
-    from pico.diagnostics import PicoError
-
-    try:
-        path.parent.mkdir(exist_ok=True)
-        write_whole(path, json.dumps(content).encode(), durable=False)  # it may be lost at any time
-    except (OSError, PicoError):
-        pass  # a folder that can't be written keeps nothing
+def _known(document: Mapping[str, Any], name: str) -> Mapping[str, Any]:
+    return dict(document[name]) if document["version"] == VERSION else {}

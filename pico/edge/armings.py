@@ -8,11 +8,11 @@ Git's own folder; outside Git nothing tells.
 from __future__ import annotations
 
 import hashlib
-import json
 from pathlib import Path
 
+from pico.base.state_files import ARMED
 from pico.disk import write_whole
-from pico.model.arming import FORMAT, Arming
+from pico.model.arming import Arming
 from pico.model.record import as_json, record
 from pico.places.bench import BenchPlace
 from pico.places.lab import lab_place
@@ -42,7 +42,7 @@ def kept(place: BenchPlace) -> tuple[Kept, ...]:
 
 def keep(place: BenchPlace, arming: Arming) -> None:
     """Let the bench keep an arming, in the place of an earlier one of its laser; raises PicoError."""
-    data = (json.dumps(as_json(arming), indent=1) + "\n").encode()
+    data = ARMED.dump(as_json(arming), indent=1)
     if seal := _seal(place, arming.laser):
         write_whole(seal, (_digest(data) + "\n").encode(), folders=True)
     write_whole(place.folder / FOLDER / f"{arming.laser}.json", data, folders=True)
@@ -64,7 +64,7 @@ def _read(place: BenchPlace, path: Path) -> Kept:
         seal = _seal(place, laser)
         if seal is not None and seal.read_text(encoding="ascii").strip() != _digest(data):
             return Kept(laser=laser, broken="it is not what the bench wrote there")
-        arming = _arming(json.loads(data))
+        arming = _arming(ARMED.parse(data))
         return (
             Kept(laser=laser, arming=arming) if arming.laser == laser else Kept(laser=laser, broken="of another laser")
         )
@@ -75,7 +75,7 @@ def _read(place: BenchPlace, path: Path) -> Kept:
 def _arming(document: object) -> Arming:
     from pydantic import TypeAdapter
 
-    found: Arming = TypeAdapter(Arming).validate_python(FORMAT.lifted(document))
+    found: Arming = TypeAdapter(Arming).validate_python(document)
     return found
 
 

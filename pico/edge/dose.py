@@ -3,14 +3,12 @@ sample, in `dose.json` beside its journal."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.device import Began
-from pico.disk import write_whole
+from pico.base.state_files import DOSE
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
@@ -20,8 +18,6 @@ from pico.policy import dose
 
 if TYPE_CHECKING:
     from pico.edge.attempts import Executing
-
-SCHEMA = "pico.dose/v1"
 
 
 @dataclass(frozen=True)
@@ -53,20 +49,20 @@ class Ledger:
 
 
 def read(place: BenchPlace) -> Ledger:
-    """Return what the bench at `place` has counted; nothing where that can't be read."""
-    try:
-        found = json.loads(_file(place).read_text(encoding="utf-8"))
-        at, spent, power = float(found["at"]), found["spent"], found["power"]
-        return Ledger(at, {str(k): float(v) for k, v in spent.items()}, {str(k): float(v) for k, v in power.items()})
-    except (OSError, ValueError, KeyError, TypeError, AttributeError):
-        return Ledger()
+    """Return what the bench at `place` has counted. Raises PicoError for a file that can't be read: no sample may count
+    as new for that."""
+    return DOSE.read(DOSE.path(place.folder), _ledger) or Ledger()
+
+
+def _ledger(found: Mapping[str, Any]) -> Ledger:
+    at, spent, power = float(found["at"]), found["spent"], found["power"]
+    return Ledger(at, {str(k): float(v) for k, v in spent.items()}, {str(k): float(v) for k, v in power.items()})
 
 
 def counted(setup: Setup, place: BenchPlace, seen: Observation) -> Ledger:
     """Count until now, write that down, and return it; raises PicoError."""
     ledger = read(place).until(setup, seen)
-    text = json.dumps({"schema": SCHEMA, "at": ledger.at, "spent": ledger.spent, "power": ledger.power}, indent=1)
-    write_whole(_file(place), f"{text}\n".encode(), folders=True)
+    DOSE.write(DOSE.path(place.folder), {"at": ledger.at, "spent": ledger.spent, "power": ledger.power}, indent=1)
     return ledger
 
 
@@ -90,7 +86,3 @@ class Dosing:
         after = counted(self._setup, self._place, await self._look())
         had = {n: mj - before.spent.get(n, 0.0) for n, mj in after.spent.items() if mj > before.spent.get(n, 0.0)}
         return replace(result, data={**result.data, "dose": had}) if had else result
-
-
-def _file(place: BenchPlace) -> Path:
-    return place.folder / "dose.json"

@@ -8,18 +8,21 @@ from __future__ import annotations
 
 import fcntl
 import getpass
-import json
 import os
 import time
-from collections.abc import Callable, Iterator
+import zlib
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from contextvars import ContextVar
 from pathlib import Path
+from typing import Any
 
 from pico.base.clock import now as clock_now
+from pico.base.state_files import ENROLMENT, HOLDER, JOURNAL, LOCK
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.disk import sweep, write_whole, writing
-from pico.edge.protocol import ENROLMENT, Granting, Holder, Lease
+from pico.disk import sweep, writing
+from pico.edge.protocol import Granting, Holder, Lease
+from pico.edge.stopping import forget
 from pico.places import attachment
 from pico.places.attachment import require_attached
 from pico.places.bench import BenchPlace, hold, let_go
@@ -62,6 +65,7 @@ class BenchLock:
             with self._writing():
                 sweep(self._folder)
             hold(self._place)
+            forget(self._place)
         except PicoError:
             os.close(file)
             raise
@@ -78,7 +82,7 @@ class BenchLock:
         """Return the token that the coordinator of the bench gave; 0 where it has none."""
         if self.granting is not None:
             return self.granting.token()
-        if (self._folder / ENROLMENT).exists():
+        if ENROLMENT.path(self._folder).exists():
             raise PicoError(enrolled(self._folder), ExitCode.LOCKED)
         return 0
 
@@ -129,7 +133,7 @@ class BenchLock:
         if self._file is not None:
             let_go(self._place)
             with suppress(OSError):  # on a disk that became read-only it stays; it names nobody who lives
-                (self._folder / "holder.json").unlink(missing_ok=True)
+                HOLDER.path(self._folder).unlink(missing_ok=True)
             os.close(self._file)
             self._file = None
 
@@ -146,37 +150,38 @@ class BenchLock:
         with self._writing():
             make_own_folder(self._place.attached.root)
             self._folder.mkdir(parents=True, exist_ok=True)
-            return os.open(self._folder / "lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+            return os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
 
     def _writing(self) -> AbstractContextManager[None]:
         return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
 
     def _last_token(self, file: int | None = None) -> int:
         """Return the highest token given out; kept in the lock's own file, which only its holder writes. Where somebody
-        deleted that since the bench was used, the clock's seconds: more than were ever counted."""
+        deleted that since the bench was used, or it is damaged, the clock's seconds: more than were ever counted."""
         file = self._file if file is None else file
         assert file is not None
-        digits = os.pread(file, 32, 0).split(b"\n")[0].strip()
-        if digits.isdigit():
+        digits, _, check = os.pread(file, 64, 0).partition(b"\n")
+        if digits.strip().isdigit() and check.strip() in (b"", _check(digits)):
             return int(digits)
-        return int(time.time()) if (self._folder / "journal.sqlite").exists() else 0
+        return int(time.time()) if digits or JOURNAL.path(self._folder).exists() else 0
 
     def _write_holder(self, lease: Lease) -> None:
         assert self._file is not None
         with self._writing():
-            os.pwrite(self._file, b"%-31d\n" % lease.token, 0)
+            digits = b"%-31d" % lease.token
+            os.pwrite(self._file, digits + b"\n" + _check(digits) + b"\n", 0)
             os.fsync(self._file)
         who = {
             "token": lease.token, "user": user(), "pid": os.getpid(), "since": lease.since, "what": lease.holder,
             "server": self.server,
         }  # fmt: skip
         with suppress(PicoError):  # it is for who asks; the lock is taken
-            write_whole(self._folder / "holder.json", json.dumps(who).encode(), durable=False)
+            HOLDER.write(HOLDER.path(self._folder), who, durable=False)
 
     def holder(self) -> Holder | None:
         """Return who has the lock, or None where nobody has it; takes it for no longer than the question needs."""
         try:
-            file = os.open(self._folder / "lock", os.O_RDWR | os.O_CLOEXEC)
+            file = os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CLOEXEC)
         except OSError:
             return None
         try:
@@ -188,14 +193,8 @@ class BenchLock:
         return None
 
     def _read_holder(self) -> Holder:
-        try:
-            who = json.loads((self._folder / "holder.json").read_text(encoding="utf-8"))
-            return Holder(
-                token=int(who["token"]), user=str(who["user"]), pid=int(who["pid"]), since=str(who["since"]),
-                what=str(who["what"]), server=bool(who.get("server")),
-            )  # fmt: skip
-        except (OSError, ValueError, KeyError, TypeError):
-            return Holder(token=0, user="somebody", pid=0, since="", what="another process")
+        nobody = Holder(token=0, user="somebody", pid=0, since="", what="another process")
+        return HOLDER.read(HOLDER.path(self._folder), _holder) or nobody
 
     def _taken(self) -> Diagnostic:
         who = self._read_holder()
@@ -205,6 +204,13 @@ class BenchLock:
             time.sleep(0.01)  # it has just taken the lock, and its name is not there yet
             who = self._read_holder()
         return _in_use(who)
+
+
+def _holder(who: Mapping[str, Any]) -> Holder:
+    return Holder(
+        token=int(who["token"]), user=str(who["user"]), pid=int(who["pid"]), since=str(who["since"]),
+        what=str(who["what"]), server=bool(who.get("server")),
+    )  # fmt: skip
 
 
 async def wait_until_free(holder: Callable[[], Holder | None], seconds: float) -> None:
@@ -217,6 +223,11 @@ async def wait_until_free(holder: Callable[[], Holder | None], seconds: float) -
         if time.monotonic() >= deadline:
             raise PicoError(_in_use(who, f"it was waited for {seconds:g} s"), ExitCode.LOCKED)
         await asyncio.sleep(RETRY)
+
+
+def _check(digits: bytes) -> bytes:
+    """Return the checksum that stands behind a token; an earlier PICO wrote none."""
+    return b"%08x" % zlib.crc32(digits)
 
 
 def attach(place: BenchPlace) -> Path | None:
@@ -232,10 +243,10 @@ def attach(place: BenchPlace) -> Path | None:
 def enrolled(folder: Path) -> Diagnostic:
     """Return that a bench is granted by its coordinator alone."""
     try:
-        note = json.loads((folder / ENROLMENT).read_text(encoding="utf-8"))
-        where = f"{note['bench']} at {note['url']}"
-    except (OSError, ValueError, KeyError, TypeError):
-        where = "a coordinator"
+        where = ENROLMENT.read(ENROLMENT.path(folder), lambda note: f"{note['bench']} at {note['url']}")
+    except PicoError:  # a bench whose enrolment is damaged stays enrolled
+        where = None
+    where = where or "a coordinator"
     text = f"this bench is enrolled as {where}, which alone grants it"
     hint = "go through it (`pico remote add`, then `--bench`); looking is possible here, and so is `pico stop`"
     return error("enrolled", text, hint=hint)

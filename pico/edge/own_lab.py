@@ -7,11 +7,11 @@ its SHA-256 into Git's own folder: a checkout overwrites whatever lies in `.pico
 from __future__ import annotations
 
 import hashlib
-import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from pico.base.state_files import OWN_LAB
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
 from pico.edge.protocol import OwnLab
@@ -20,13 +20,10 @@ from pico.places.bench import BenchPlace
 from pico.places.lab import lab_place
 from pico.places.record import SHARED
 from pico.places.seals import sealed_labs, write_seals
-from pico.version import NEWER, upgrade_hint
 
 if TYPE_CHECKING:
     from pico.model.setup import Setup
 
-FILE = "lab.json"
-SCHEMA = "pico.bench-lab/v1"
 NAMED = "the bench's own "
 """What stands before the names of its files in diagnostics."""
 CODE = "bench-lab"
@@ -35,32 +32,28 @@ _HINT = "`pico bench update` shows what the working tree describes, and lets the
 
 def read(place: BenchPlace) -> OwnLab | None:
     """Return the Lab that the bench at `place` keeps, None where it keeps none yet; raises PicoError."""
-    path = place.folder / FILE
+    path = OWN_LAB.path(place.folder)
     try:
         data = path.read_bytes() if path.exists() else None
         _require_sealed(place, path, data)
         if data is None:
             return None
-        document = json.loads(data)
-    except (OSError, ValueError, RecursionError) as exc:
-        raise PicoError(error(CODE, f"{path} can't be read: {exc}", hint=_HINT)) from exc
-    try:
-        if document["schema"] != SCHEMA:
-            text = f"{path} is {str(document['schema'])[:40]}, and this PICO reads {SCHEMA}"
-            raise PicoError(error(NEWER, text, hint=upgrade_hint()))
-        files = {str(name): str(text) for name, text in document["files"].items()}
-        return OwnLab(files=files, by=str(document["by"]), at=str(document["at"]))
-    except (KeyError, TypeError, AttributeError) as exc:
-        raise PicoError(error(CODE, f"{path} is no Lab of a bench", hint=_HINT)) from exc
+    except OSError as exc:
+        raise PicoError(OWN_LAB.unreadable(path, exc.strerror or str(exc))) from exc
+    return OWN_LAB.made(path, data, _own_lab)
+
+
+def _own_lab(document: Mapping[str, Any]) -> OwnLab:
+    files = {str(name): str(text) for name, text in document["files"].items()}
+    return OwnLab(files=files, by=str(document["by"]), at=str(document["at"]))
 
 
 def write(place: BenchPlace, lab: OwnLab) -> None:
     """Let the bench at `place` keep a Lab, whole or not at all; raises PicoError."""
-    document = {"schema": SCHEMA, "by": lab.by, "at": lab.at, "files": dict(lab.files)}
-    data = (json.dumps(document, indent=1) + "\n").encode()
+    data = OWN_LAB.dump({"by": lab.by, "at": lab.at, "files": dict(lab.files)}, indent=1)
     before = _seals(place)
     _seal(place, [*before, _digest(data)])  # either counts until the file is there
-    write_whole(place.folder / FILE, data)
+    write_whole(OWN_LAB.path(place.folder), data)
     _seal(place, [_digest(data)])
 
 

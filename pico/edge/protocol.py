@@ -55,14 +55,6 @@ RECIPE = "pico run"
 """For which a bench is taken, and for which recipe, where one runs."""
 
 
-UNATTENDED = "unattended.json"
-"""The file of a bench in which stands what an unattended run is held to."""
-
-
-ENROLMENT = "enrolment.json"
-"""The file of a bench in which stands with which coordinator it is enrolled, the only one who then grants it."""
-
-
 class Granting(Protocol):
     """Who grants a bench that is enrolled with a coordinator, in place of its own counting of tokens."""
 

@@ -8,6 +8,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base.state_files import JOURNAL, RUN_MARK
 from pico.disk import write_whole
 from pico.places.bench import BenchPlace
 
@@ -27,7 +28,7 @@ class Remembering:
     @property
     def path(self) -> Path:
         """The file of the journal."""
-        return self._place.folder / "journal.sqlite"
+        return JOURNAL.path(self._place.folder)
 
     @property
     def journal(self) -> Journal:
@@ -51,7 +52,7 @@ class Remembering:
 
     @property
     def _mark(self) -> Path:
-        return self._place.folder / "run"
+        return RUN_MARK.path(self._place.folder)
 
     def unended(self) -> str | None:
         """Return the run that has begun and not ended, None for none; its id stands beside the journal meanwhile."""

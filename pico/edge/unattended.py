@@ -8,26 +8,26 @@ from __future__ import annotations
 
 import asyncio
 import fcntl
-import json
 import os
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from pico.base import clock
+from pico.base.state_files import UNATTENDED as UNATTENDED_TERMS
+from pico.base.state_files import UNATTENDED_LOCK
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
-from pico.disk import write_whole
 from pico.edge import emission
-from pico.edge.protocol import RECIPE, UNATTENDED, Job
+from pico.edge.protocol import RECIPE, Job
 from pico.model.arming import LaserClass
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
 from pico.model.record import as_json
 from pico.model.setup import Setup
-from pico.model.trace.unattended import FORMAT, LAMPS_OFF, PARKED, SHUT, Left, Terms
+from pico.model.trace.unattended import LAMPS_OFF, PARKED, SHUT, Left, Terms
 from pico.places.bench import BenchPlace
 from pico.policy.arming import lasers
 
@@ -304,22 +304,30 @@ def _dark(setup: Setup, seen: Observation, why: str) -> Iterator[Operation]:
 
 
 def read(place: BenchPlace) -> Terms | None:
-    """Return the terms of the last unattended run that the bench knows; None where there was none, or its file is
-    broken."""
-    try:
-        document = json.loads(_file(place).read_text(encoding="utf-8"))
-        from pydantic import TypeAdapter
+    """Return the terms of the last unattended run that the bench knows; None if there was none.
 
-        found: Terms = TypeAdapter(Terms).validate_python(FORMAT.lifted(document))
-        return found
-    except (OSError, ValueError, PicoError):  # pydantic's are of the second kind
-        return None
+    Of a file that is damaged they are unknown: a run then counts as killed that has to leave every laser shut and every
+    lamp off, and whoever takes the bench next does so and writes the file anew.
+    """
+    path = _file(place)
+    try:
+        return UNATTENDED_TERMS.read(path, _terms)
+    except PicoError as exc:
+        text = f"an unattended run whose terms are damaged ({exc.diagnostics[0].summary})"
+        return Terms(recipe=text, laser_class="1", until="", every=0.0, end=(SHUT, LAMPS_OFF))
+
+
+def _terms(document: Mapping[str, Any]) -> Terms:
+    from pydantic import TypeAdapter
+
+    found: Terms = TypeAdapter(Terms).validate_python(document)
+    return found
 
 
 def alive(place: BenchPlace) -> bool:
     """Return whether a process holds a run of this bench to its terms."""
     try:
-        file = os.open(place.folder / "unattended.lock", os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
+        file = os.open(UNATTENDED_LOCK.path(place.folder), os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
     except OSError:
         return False
     try:
@@ -334,7 +342,7 @@ def alive(place: BenchPlace) -> bool:
 def _locked(place: BenchPlace) -> int | None:
     folder = place.folder
     folder.mkdir(parents=True, exist_ok=True)
-    file = os.open(folder / "unattended.lock", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+    file = os.open(UNATTENDED_LOCK.path(folder), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
     try:
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:
@@ -344,8 +352,8 @@ def _locked(place: BenchPlace) -> int | None:
 
 
 def _write(place: BenchPlace, terms: Terms) -> None:
-    write_whole(_file(place), (json.dumps(as_json(terms), indent=1) + "\n").encode(), folders=True)
+    UNATTENDED_TERMS.write(_file(place), as_json(terms), indent=1)
 
 
 def _file(place: BenchPlace) -> Path:
-    return place.folder / UNATTENDED
+    return UNATTENDED_TERMS.path(place.folder)

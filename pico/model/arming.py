@@ -7,11 +7,11 @@ from dataclasses import field
 from typing import Literal
 
 from pico.base import clock
-from pico.model.record import Format, record
+from pico.base.state_files import ARMED
+from pico.model.record import record
 
 LaserClass = Literal["1", "2", "3R", "3B", "4"]
 CLASSES: tuple[LaserClass, ...] = ("1", "2", "3R", "3B", "4")
-FORMAT = Format("pico.arming")
 
 
 def within(of: LaserClass, most: LaserClass) -> bool:
@@ -49,7 +49,7 @@ class Arming:
     `ended_by`: who disarmed it, at `ends`. `seen_over`: its end was seen, so that it never counts again, whatever a
     clock says later."""
 
-    schema: str = FORMAT.schema
+    schema: str = ARMED.schema
     laser: str
     by: str
     role: str

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field
 from typing import Any, Literal
 
-from pico.model.record import Format, digest, record
+from pico.base.formats import Format
+from pico.model.record import digest, record
 from pico.model.setup import Setup
 
 Step = Literal[

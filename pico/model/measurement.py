@@ -7,8 +7,9 @@ from dataclasses import field, fields
 from types import MappingProxyType
 from typing import Any, Literal, get_args
 
+from pico.base.formats import Format
 from pico.model.quantities import Value
-from pico.model.record import Format, record
+from pico.model.record import record
 from pico.model.shown.html import number, table
 
 FORMAT = Format("pico.measurement")

@@ -7,10 +7,11 @@ from collections.abc import Mapping
 from dataclasses import field, replace
 from typing import Any, Literal
 
+from pico.base.formats import Document, Format
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change
 from pico.model.operation import Operation
-from pico.model.record import Document, Format, as_json, canonical, digest, record, remembered
+from pico.model.record import as_json, canonical, digest, record, remembered
 from pico.model.shown.html import table
 from pico.model.state import Expectation, LabState, state_from_json
 

@@ -1,19 +1,13 @@
-"""The one way model data is declared, turned into canonical JSON and digested.
-
-Documents that outlive the program which wrote them have a `Format`: each names its version, and old ones are lifted.
-"""
+"""The one way model data is declared, turned into canonical JSON and digested."""
 
 from __future__ import annotations
 
 import dataclasses
 import hashlib
 import json
-import re
 from collections.abc import Callable, Mapping, Sequence
 from functools import cache, wraps
 from typing import Any, TypeVar, cast, dataclass_transform
-
-from pico.version import upgrade_hint
 
 T = TypeVar("T")
 F = TypeVar("F", bound=Callable[..., Any])
@@ -99,38 +93,3 @@ def canonical(value: Any) -> str:
 def digest(value: Any) -> str:
     """Return `sha256:...` of the canonical JSON of `value`."""
     return "sha256:" + hashlib.sha256(canonical(value).encode()).hexdigest()
-
-
-Document = Mapping[str, Any]
-Step = Callable[[Document], Document]
-"""Takes a document of one version and returns the same document in the next."""
-
-
-@dataclasses.dataclass(frozen=True)
-class Format:
-    """A format by name (`pico.plan`). `steps[i]` lifts a document from version i + 1 to the next; without any, the
-    format is as it was at first."""
-
-    name: str
-    steps: tuple[Step, ...] = ()
-
-    @property
-    def schema(self) -> str:
-        """What is written into a document: name and current version."""
-        return f"{self.name}/v{len(self.steps) + 1}"
-
-    def lifted(self, document: object) -> dict[str, Any]:
-        """Return a document of any version up to the current one as the current one has it.
-
-        Raises ValueError, whose words follow after "it is", where it is of another format or of a newer PICO.
-        """
-        said = document.get("schema") if isinstance(document, Mapping) else None
-        found = re.fullmatch(rf"{re.escape(self.name)}/v([1-9][0-9]{{0,5}})", said) if isinstance(said, str) else None
-        if not found:
-            raise ValueError(f"no {self.schema}, but {str(said)[:40]!r}")
-        if (version := int(found[1])) > len(self.steps) + 1:
-            raise ValueError(f"of a newer PICO ({said}; this one reads up to {self.schema}): {upgrade_hint()}")
-        assert isinstance(document, Mapping)
-        for step in self.steps[version - 1 :]:
-            document = step(document)
-        return {**document, "schema": self.schema}

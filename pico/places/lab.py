@@ -7,12 +7,12 @@ from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from pico.base.state_files import RECORD
 from pico.diagnostics import Diagnostic, PicoError, error
 
 FOLDER = ".pico"
 BENCHES = "benches"
 """The folder in `.pico` that holds a folder for each bench."""
-RECORD = "bench.json"
 IGNORE = ".gitignore"
 
 
@@ -32,7 +32,7 @@ class LabPlace:
     @property
     def record(self) -> Path:
         """The file that says which worktree has which bench."""
-        return self.common / "pico" / RECORD
+        return RECORD.path(self.common / "pico")
 
 
 def lab_place(root: Path) -> LabPlace | None:

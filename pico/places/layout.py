@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import json
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
+from pico.base.state_files import LAYOUT
 from pico.diagnostics import Diagnostic, PicoError, warning
-from pico.disk import write_whole
 from pico.places.lab import BENCHES, FOLDER
 
 JOURNAL = "journal.sqlite"
-LAYOUT = "layout.json"
-SCHEMA = "pico.benches-layout/v1"
 UNSORTED = "unsorted"
 EARLIER = "earlier"
 DEVICES = ("sim", "emulated", "hardware")
@@ -48,20 +47,24 @@ class Layout:
 
 
 def read_layout(root: Path) -> Layout | None:
-    """Return what was done with the old layout of the lab in `root`; None if nothing was."""
-    try:
-        found = json.loads((root / FOLDER / BENCHES / LAYOUT).read_text(encoding="utf-8"))
-        return Layout(
-            tuple(found["benches"]), bool(found["clearing"]), tuple(found["unclear"]), tuple(found["earlier"]),
-            bool(found["told"]),
-        )  # fmt: skip
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
+    """Return what was done with the old layout of the lab in `root`; None if nothing was. Raises PicoError for a file
+    that can't be read."""
+    return LAYOUT.read(LAYOUT.path(root / FOLDER / BENCHES), _layout)
+
+
+def _layout(found: Mapping[str, Any]) -> Layout:
+    return Layout(
+        tuple(found["benches"]), bool(found["clearing"]), tuple(found["unclear"]), tuple(found["earlier"]),
+        bool(found["told"]),
+    )  # fmt: skip
 
 
 def take_report(root: Path) -> tuple[Diagnostic, ...]:
     """Return, once, what a split could not sort."""
-    layout = read_layout(root)
+    try:
+        layout = read_layout(root)
+    except PicoError as exc:
+        return tuple(exc.diagnostics)
     if layout is None or layout.told:
         return ()
     folder = root / FOLDER
@@ -82,7 +85,7 @@ def take_report(root: Path) -> tuple[Diagnostic, ...]:
 def write_layout(folder: Path, layout: Layout, *, clearing: bool, told: bool | None = None) -> None:
     """Write down what was done with the old layout; raises PicoError."""
     document = {
-        "schema": SCHEMA, "benches": layout.benches, "clearing": clearing, "unclear": layout.unclear,
+        "benches": layout.benches, "clearing": clearing, "unclear": layout.unclear,
         "earlier": layout.earlier, "told": layout.told if told is None else told,
     }  # fmt: skip
-    write_whole(folder / BENCHES / LAYOUT, (json.dumps(document, indent=1) + "\n").encode(), folders=True)
+    LAYOUT.write(LAYOUT.path(folder / BENCHES), document, indent=1)

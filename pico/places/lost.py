@@ -9,13 +9,14 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from pico.base.state_files import JOURNAL, LOCK, OWN_LAB, WORLD
 from pico.diagnostics import Diagnostic, error
 from pico.places.bench import BenchPlace
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
 from pico.places.record import SHARED, Record, read_record
 from pico.places.seals import sealed_labs
 
-_TELLING = ("lock", "journal.sqlite", "world.json", "lab.json")
+_TELLING = tuple(file.name for file in (LOCK, JOURNAL, WORLD, OWN_LAB))
 """Files of which a bench that was ever used has at least one."""
 
 

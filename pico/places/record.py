@@ -7,13 +7,14 @@ below it each bench with the folder, relative to Git's, of the lab in the worktr
 from __future__ import annotations
 
 import fcntl
-import json
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
+from copy import deepcopy
 from pathlib import Path
 
-from pico.disk import write_whole, writing
+from pico.base.state_files import RECORD
+from pico.disk import writing
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
 
 SHARED = ""
@@ -59,21 +60,21 @@ def recording(place: LabPlace) -> Iterator[Record]:
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
         record = read_record(place)
-        before = json.dumps(record, indent=2, sort_keys=True)
+        before = deepcopy(record)
         yield record
-        if (after := json.dumps(record, indent=2, sort_keys=True)) != before:
-            write_whole(path, f"{after}\n".encode(), code="folder")
+        if record != before:
+            RECORD.write(path, record, indent=2)
     finally:
         os.close(lock)
 
 
 def read_record(place: LabPlace) -> Record:
-    """Return the record, one of an earlier PICO lifted; one that can't be read names nothing."""
-    try:
-        found = json.loads(place.record.read_text(encoding="utf-8"))
-        return {str(inside): _lifted(benches) for inside, benches in found.items()}
-    except (OSError, ValueError, AttributeError):
-        return {}
+    """Return the record, one of an earlier PICO lifted. Raises PicoError for one that can't be read."""
+    return RECORD.read(place.record, _record) or {}
+
+
+def _record(document: Mapping[str, object]) -> Record:
+    return {inside: _lifted(benches) for inside, benches in document.items()}
 
 
 def _lifted(benches: object) -> dict[str, str]:

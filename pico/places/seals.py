@@ -3,35 +3,33 @@ lab's folder in the repository and the bench. A checkout overwrites what lies in
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
-from pico.disk import write_whole
+from pico.base.state_files import SEALS
 from pico.places.lab import LabPlace
 from pico.places.record import SHARED
 
-FILE = "labs.json"
 Seals = Mapping[str, Mapping[str, list[str]]]
 
 
 def sealed_labs(lab: LabPlace) -> dict[str, dict[str, list[str]]]:
-    """Return the digests by lab and bench, those of an earlier PICO for all benches of the lab (`SHARED`); none if the
-    file can't be read."""
-    try:
-        found = json.loads(_path(lab).read_bytes())
-        return {str(inside): _lifted(digests) for inside, digests in found.items()}
-    except (OSError, ValueError, AttributeError, TypeError):
-        return {}
+    """Return the digests by lab and bench, those of an earlier PICO for all benches of the lab (`SHARED`); Raises
+    PicoError for a file that can't be read."""
+    return SEALS.read(_path(lab), _seals) or {}
+
+
+def _seals(document: Mapping[str, object]) -> dict[str, dict[str, list[str]]]:
+    return {inside: _lifted(digests) for inside, digests in document.items()}
 
 
 def write_seals(lab: LabPlace, seals: Seals) -> None:
     """Let Git's folder know these digests; raises PicoError."""
-    write_whole(_path(lab), (json.dumps(seals, indent=1, sort_keys=True) + "\n").encode(), folders=True)
+    SEALS.write(_path(lab), seals, indent=1)
 
 
 def _path(lab: LabPlace) -> Path:
-    return lab.common / "pico" / FILE
+    return SEALS.path(lab.common / "pico")
 
 
 def _lifted(digests: object) -> dict[str, list[str]]:

@@ -12,11 +12,11 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Callable, Collection, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from pico.base.clock import now_ms
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
@@ -26,17 +26,32 @@ from pico.model.operation import Operation, OperationResult, Outcome, Reason
 from pico.model.pose import Pose
 from pico.model.record import as_json, digest, record
 from pico.model.trace.run import RunOutcome
+from pico.runs.damage import (
+    PHASES,
+    SALVAGE,
+    FromCommit,
+    checksum,
+    from_commit,
+    is_sound_head,
+    is_sound_part,
+    is_sound_record,
+    named,
+    sums_of_run,
+)  # fmt: skip
 from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
-VERSION = 3
-_PHASE: Mapping[str, int] = {"intent": 0, "started": 1, "done": 2, "failed": 2, "unknown": 2, "resolved": 3}
+VERSION = 4
+RECENT = 2000
+"""So many records are checked before anything is written, and with them anything moves."""
+SMALL = 1000
+"""Pages of a journal up to which its indices are checked then, too."""
 _RUNS = """
 CREATE TABLE IF NOT EXISTS runs (
   number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT NOT NULL UNIQUE, plan TEXT NOT NULL, holder TEXT NOT NULL,
   started_at TEXT NOT NULL, finished_at TEXT, outcome TEXT, tally TEXT, document TEXT, resumed INTEGER DEFAULT 0,
-  about TEXT, seen TEXT
+  about TEXT, seen TEXT, checksum TEXT
 );
 CREATE TABLE IF NOT EXISTS fence (one INTEGER PRIMARY KEY CHECK (one = 1), token INTEGER NOT NULL);
 INSERT OR IGNORE INTO fence VALUES (1, 0);
@@ -47,29 +62,22 @@ ALTER TABLE runs RENAME TO old_runs;
 INSERT INTO runs (run, plan, holder, started_at, finished_at, outcome, tally)
   SELECT run, plan, holder, started_at, finished_at, outcome, tally FROM old_runs ORDER BY started_at, run;
 DROP TABLE old_runs;
+ALTER TABLE records ADD COLUMN checksum TEXT;
 """
-_FROM_2 = """
-ALTER TABLE runs ADD COLUMN about TEXT;
-ALTER TABLE runs ADD COLUMN seen TEXT;
-"""
+_FROM_3_RECORDS = "ALTER TABLE records ADD COLUMN checksum TEXT;"
+_FROM_3 = f"ALTER TABLE runs ADD COLUMN checksum TEXT; {_FROM_3_RECORDS}"
+_FROM_2 = f"ALTER TABLE runs ADD COLUMN about TEXT; ALTER TABLE runs ADD COLUMN seen TEXT; {_FROM_3}"
 _TABLES = f"""
 {_RUNS}
 CREATE TABLE IF NOT EXISTS records (
   seq INTEGER PRIMARY KEY AUTOINCREMENT, key TEXT NOT NULL, run TEXT NOT NULL, phase INTEGER NOT NULL,
   kind TEXT NOT NULL, component TEXT NOT NULL, digest TEXT NOT NULL, token INTEGER NOT NULL, at TEXT NOT NULL,
-  data TEXT NOT NULL, UNIQUE (key, phase)
+  data TEXT NOT NULL, checksum TEXT, UNIQUE (key, phase)
 );
 CREATE INDEX IF NOT EXISTS records_of_run ON records (run);
 """
-_LAST_PICK = """
-SELECT i.data FROM records AS s JOIN records AS i ON i.key = s.key AND i.phase = 0
-WHERE s.phase = 1 AND json_extract(i.data, '$.robot') = ? AND json_extract(i.data, '$.arguments.from') IS NOT NULL
-  AND json_extract(i.data, '$.arguments.from.held') IS NULL ORDER BY s.seq DESC LIMIT 1
-"""
-_SUCCESSES = """
-SELECT e.component, e.run, i.data, e.data, e.at FROM records AS e JOIN records AS i ON i.key = e.key AND i.phase = 0
-WHERE e.kind = 'done' OR e.kind = 'resolved' AND json_extract(e.data, '$.outcome') = 'done' ORDER BY e.seq DESC
-"""
+ROW = "seq, key, run, phase, kind, component, digest, token, at, data"
+HEAD = "number, run, plan, holder, started_at, finished_at, outcome, tally, resumed"
 
 
 @record
@@ -85,9 +93,6 @@ class JournalRecord:
     token: int
     at: str
     data: Mapping[str, Any]
-
-
-_RUN = "run, plan, holder, started_at, finished_at, outcome, tally, resumed, number"
 
 
 @record
@@ -142,7 +147,9 @@ class Journal:
     def __init__(self, path: Path, clock: Callable[[], str] = now_ms, *, looking: bool = False) -> None:
         """Open or make it. `looking`: only to read what is there, also where the disk is full or read-only."""
         self.path = path
-        self._clock = clock
+        self._clock, self._looking = clock, looking
+        self._sums = "checksum"
+        self._in_commits: dict[str, FromCommit | None] = {}
         with self._guarded():
             try:
                 if not looking:
@@ -157,6 +164,7 @@ class Journal:
         self._db = sqlite3.connect(
             name, timeout=5.0, isolation_level=None, check_same_thread=False, uri=name.startswith("file:")
         )
+        self._db.text_factory = _decoded
         try:
             self._prepare()
         except BaseException:
@@ -172,8 +180,33 @@ class Journal:
             text = f"{self.path} is of a newer PICO (version {version})"
             raise PicoError(error("journal", text, hint=upgrade_hint()))
         if version < VERSION:
-            script = {0: _TABLES, 1: _FROM_1, 2: _FROM_2}[version]
-            self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")
+            script = {0: _TABLES, 1: _FROM_1, 2: _FROM_2, 3: _FROM_3}[version]
+            try:
+                self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")
+            except sqlite3.OperationalError:
+                if not self._looking or version < 3:
+                    raise
+                with suppress(sqlite3.Error):
+                    self._db.execute("ROLLBACK")
+                self._sums = "NULL"  # on a disk that takes nothing, version 3 is read as it is
+        if not self._looking:
+            self._require_recent()
+
+    @property
+    def _row(self) -> str:
+        return f"{ROW}, {self._sums}"
+
+    def _require_recent(self) -> None:
+        """Raise PicoError if one of the last records is damaged, and in no commit, or an index of a small journal is:
+        a row that an index hides would not be missed."""
+        if self._db.execute("PRAGMA page_count").fetchone()[0] <= SMALL:
+            wrong = self._db.execute("PRAGMA integrity_check(1)").fetchone()[0]
+            if wrong != "ok":
+                raise sqlite3.DatabaseError(wrong)
+        rows = self._db.execute(f"SELECT {self._row} FROM records ORDER BY seq DESC LIMIT {RECENT}").fetchall()
+        for row in rows:
+            if not is_sound_record(row):
+                self._from_commit(row)
 
     def close(self) -> None:
         """Let go of the database."""
@@ -196,13 +229,10 @@ class Journal:
 
         `about`: what the plan does not say of it, see `pico.edge.about`.
         """
-        row = (run, plan, holder, self._clock(), document, _text([about or {}]))
-        columns = (
-            "INSERT OR IGNORE INTO runs (run, plan, holder, started_at, document, about) VALUES (?, ?, ?, ?, ?, ?)"
-        )
-        with self._guarded():
-            self._db.execute(columns, row)
-            known = self._db.execute("SELECT plan FROM runs WHERE run = ?", (run,)).fetchone()[0]
+        row = (run, plan, holder, self._clock(), document, as_text([about or {}]))
+        columns = "run, plan, holder, started_at, document, about"
+        change = f"INSERT OR IGNORE INTO runs ({columns}) VALUES (?, ?, ?, ?, ?, ?)"
+        known = self._changed(run, change, row)[2]
         if known != plan:
             raise PicoError(error("journal-key", f"run {run} is of another plan", hint="start the run under a new id"))
 
@@ -212,48 +242,70 @@ class Journal:
             "UPDATE runs SET finished_at = NULL, outcome = NULL, tally = NULL, seen = NULL, resumed = resumed + 1,"
             " about = json_insert(coalesce(about, '[{}]'), '$[#]', json(?)) WHERE run = ?"
         )
-        with self._guarded():
-            self._db.execute(change, (_text(about or {}), run))
-            row = self._db.execute("SELECT resumed FROM runs WHERE run = ?", (run,)).fetchone()
-        if row is None:
-            raise PicoError(error("journal-key", f"the journal has no run {run}"))
-        return int(row[0])
+        return int(self._changed(run, change, (as_text(about or {}), run))[8])
 
     def end_run(self, run: str, outcome: RunOutcome, tally: Mapping[str, Any]) -> None:
         """Record how a run ended: `tally` counts its operations."""
-        row = (self._clock(), outcome, _text(as_json(tally)), run)
-        with self._guarded():
-            self._db.execute("UPDATE runs SET finished_at = ?, outcome = ?, tally = ? WHERE run = ?", row)
+        row = (self._clock(), outcome, as_text(as_json(tally)), run)
+        self._changed(run, "UPDATE runs SET finished_at = ?, outcome = ?, tally = ? WHERE run = ?", row)
 
     def saw(self, run: str, seen: Mapping[str, Any]) -> None:
         """Record how the bench was observed when a run was over, see `pico.edge.about`."""
+        self._changed(run, "UPDATE runs SET seen = ? WHERE run = ?", (as_text(seen), run))
+
+    def _changed(self, run: str, change: str, values: tuple[Any, ...]) -> tuple[Any, ...]:
+        """Change the row of a run, and its checksums with it; return it as it then is. Raises PicoError if there is
+        none, or if it is damaged: its checksums would then hide that."""
+        whole = f"SELECT {HEAD}, document, about, seen, checksum FROM runs WHERE run = ?"
         with self._guarded():
-            self._db.execute("UPDATE runs SET seen = ? WHERE run = ?", (_text(seen), run))
+            self._db.execute("BEGIN IMMEDIATE")
+            try:
+                before = self._db.execute(whole, (run,)).fetchone()
+                if before and before[12] is not None and before[12] != sums_of_run(before[:12]):
+                    raise PicoError(named(self.path, f"the run {run}"))
+                self._db.execute(change, values)
+                row: tuple[Any, ...] | None = self._db.execute(whole, (run,)).fetchone()
+                if row is None:
+                    raise PicoError(error("journal-key", f"the journal has no run {run}"))
+                self._db.execute("UPDATE runs SET checksum = ? WHERE run = ?", (sums_of_run(row[:12]), run))
+                self._db.execute("COMMIT")
+            except BaseException:
+                with suppress(sqlite3.Error):
+                    self._db.execute("ROLLBACK")
+                raise
+        return row
 
     def runs(self) -> tuple[RunRecord, ...]:
         """Return the runs in the order in which they began."""
         with self._guarded():
-            rows = self._db.execute(f"SELECT {_RUN} FROM runs ORDER BY number").fetchall()
-        return tuple(_run(row) for row in rows)
+            rows = self._db.execute(f"SELECT {HEAD}, {self._sums} FROM runs ORDER BY number").fetchall()
+        return tuple(self._run(row) for row in rows)
 
     def last(self) -> RunRecord | None:
         """Return the run that began last, None where none did."""
         with self._guarded():
-            row = self._db.execute(f"SELECT {_RUN} FROM runs ORDER BY number DESC LIMIT 1").fetchone()
-        return _run(row) if row else None
+            row = self._db.execute(f"SELECT {HEAD}, {self._sums} FROM runs ORDER BY number DESC LIMIT 1").fetchone()
+        return self._run(row) if row else None
 
     def document(self, run: str) -> str | None:
-        """Return the plan that a run began with, as JSON; None where it was not kept."""
+        """Return the plan that a run began with, as JSON; None where it was not kept, or where it is
+        damaged and a commit has the run."""
         with self._guarded():
-            row = self._db.execute("SELECT document FROM runs WHERE run = ?", (run,)).fetchone()
+            row = self._db.execute(f"SELECT document, {self._sums} FROM runs WHERE run = ?", (run,)).fetchone()
+        if row and not is_sound_part(row[0], row[1], "document"):
+            self._of_commit(run, f"the plan of run {run}")
+            return None
         return row[0] if row else None
 
     def about(self, run: str) -> tuple[tuple[Mapping[str, Any], ...], Mapping[str, Any] | None]:
         """Return what was recorded of a run at its start and each time that it was taken up again, and how the bench
         was observed when it was over; None where nobody looked."""
         with self._guarded():
-            row = self._db.execute("SELECT about, seen FROM runs WHERE run = ?", (run,)).fetchone()
-        about, seen = row or (None, None)
+            row = self._db.execute(f"SELECT about, seen, {self._sums} FROM runs WHERE run = ?", (run,)).fetchone()
+        about, seen, sums = row or (None, None, None)
+        if row and not (is_sound_part(about, sums, "about") and is_sound_part(seen, sums, "seen")):
+            known = self._of_commit(run, f"the beginning or end of run {run}")
+            return known.about, known.seen
         return tuple(json.loads(about) if about else ()), json.loads(seen) if seen else None
 
     def moving(self) -> frozenset[str]:
@@ -327,35 +379,104 @@ class Journal:
 
     def last_pick(self, robot: str) -> Operation | None:
         """Return the last move that a robot began from the table: what it may hold, and where that stood before."""
-        with self._guarded():
-            row = self._db.execute(_LAST_PICK, (robot,)).fetchone()
-        return operation_from_json(json.loads(row[0])) if row else None
+        begun = set[str]()
+        for one in self._backwards("WHERE phase < 2"):
+            begun |= {one.key} if one.kind == "started" else set()
+            origin = one.data.get("arguments", {}).get("from") if one.kind == "intent" and one.key in begun else None
+            if origin is not None and one.data.get("robot") == robot and origin.get("held") is None:
+                return operation_from_json(one.data)
+        return None
 
     def successes(self, components: Collection[str]) -> Iterator[Success]:
         """Yield the operations on some components that succeeded, the last one first."""
+        ends, intents = (
+            ", ".join(name if name == "NULL" else f"{table}.{name}" for name in self._row.split(", "))
+            for table in ("e", "i")
+        )
+        joined = f"SELECT {ends}, {intents} FROM records AS e JOIN records AS i ON i.key = e.key AND i.phase = 0"
         with self._guarded():
-            for name, run, intent, end, at in self._db.execute(_SUCCESSES):
-                if name in components or '"optimize"' in intent:  # one search sets tunables of several components
-                    operation, ended = operation_from_json(json.loads(intent)), json.loads(end)
-                    after, last = observed_from_json(ended.get("after")), (ended.get("data") or {}).get("last")
-                    yield Success(run=run, operation=operation, after=after, at=at, last=last)
+            for row in self._db.execute(f"{joined} WHERE e.phase > 1 ORDER BY e.seq DESC"):
+                end_row, intent_row = row[:11], row[11:]
+                whole = is_sound_record(end_row) and is_sound_record(intent_row)
+                # one search sets tunables of several components
+                if whole and end_row[5] not in components and '"optimize"' not in intent_row[9]:
+                    continue
+                end, intent = self._mended((end_row, intent_row))
+                if end.kind == "done" or (end.kind == "resolved" and end.data["outcome"] == "done"):
+                    after, last = observed_from_json(end.data.get("after")), (end.data.get("data") or {}).get("last")
+                    yield Success(
+                        run=run_of(end.key), operation=operation_from_json(intent.data), after=after, at=end.at,
+                        last=last,
+                    )  # fmt: skip
+
+    def _backwards(self, where: str) -> Iterator[JournalRecord]:
+        """Yield records, the last one first."""
+        with self._guarded():
+            cursor = self._db.execute(f"SELECT {self._row} FROM records {where} ORDER BY seq DESC")
+            while rows := cursor.fetchmany(64):
+                yield from self._mended(rows)
 
     def _select(self, where: str, *values: str) -> tuple[JournalRecord, ...]:
-        columns = "seq, key, kind, component, digest, token, at, data"
         with self._guarded():
-            rows = self._db.execute(f"SELECT {columns} FROM records {where} ORDER BY seq", values).fetchall()
-        names = columns.split(", ")[:-1]
-        return tuple(JournalRecord(**dict(zip(names, row[:-1], strict=True)), data=json.loads(row[-1])) for row in rows)
+            rows = self._db.execute(f"SELECT {self._row} FROM records {where} ORDER BY seq", values).fetchall()
+        return tuple(self._mended(rows))
+
+    # what is damaged
+
+    def _mended(self, rows: Sequence[tuple[Any, ...]]) -> Iterator[JournalRecord]:
+        """Yield the records of some rows; one that is damaged is taken from the commit that has its run. Raises
+        PicoError if none has."""
+        for row in rows:
+            yield _record(row) if is_sound_record(row) else self._from_commit(row)
+
+    def _from_commit(self, row: tuple[Any, ...]) -> JournalRecord:
+        """Return what a damaged row held: what the commit has of its run and no sound row of the run says."""
+        seq, run = row[0], str(row[2])
+        known = self._of_commit(run, f"record {seq} ({row[5]}) of run {run}")
+        own = self._db.execute(f"SELECT {self._row} FROM records WHERE run = ? ORDER BY seq", (run,)).fetchall()
+        sound = {(one[1], one[4]) for one in own if is_sound_record(one)}
+        gone = [one[0] for one in own if not is_sound_record(one)]
+        missing = [one for one in known.records if one[:2] not in sound]
+        if len(gone) != len(missing) or seq not in gone:
+            raise PicoError(named(self.path, f"record {seq} of run {run}"))
+        key, kind, component, at, data = missing[gone.index(seq)]
+        intent = next((one for one in known.records if one[:2] == (key, "intent")), None)
+        content = digest(operation_from_json(intent[4])) if intent else ""
+        return JournalRecord(
+            seq=seq, key=key, kind=cast(RecordKind, kind), component=component, digest=content, token=0, at=at,
+            data=data,
+        )  # fmt: skip
+
+    def _of_commit(self, run: str, what: str) -> FromCommit:
+        if run not in self._in_commits:
+            self._in_commits[run] = from_commit(self.path, run)
+        known = self._in_commits[run]
+        if known is None:
+            raise PicoError(named(self.path, what))
+        return known
+
+    def _run(self, row: tuple[Any, ...]) -> RunRecord:
+        *head, sums = row
+        number, run, plan, holder, started, finished, outcome, tally, resumed = head
+        if is_sound_head(head, sums):
+            tally = json.loads(tally) if tally else None
+        else:
+            known = self._of_commit(str(run), f"run {run}")
+            _, run, plan, holder, started, finished, outcome, tally, resumed = known.head
+        return RunRecord(
+            run=run, plan=plan, holder=holder, started_at=started, finished_at=finished, outcome=outcome, tally=tally,
+            resumed=int(resumed or 0), number=int(number),
+        )  # fmt: skip
 
     def _add(self, key: str, kind: RecordKind, component: str, content: str, token: int, data: Any) -> None:
-        row = (key, run_of(key), _PHASE[kind], kind, component, content, token, self._clock(), _text(data))
+        row = (key, run_of(key), PHASES[kind], kind, component, content, token, self._clock(), as_text(data))
         with self._guarded():
             if kind == "intent":
                 self._db.execute("PRAGMA synchronous=NORMAL")
             written = self._db.execute(
-                "INSERT INTO records (key, run, phase, kind, component, digest, token, at, data)"
-                " SELECT ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE ? >= (SELECT token FROM fence)",
-                (*row, token),
+                "INSERT INTO records (key, run, phase, kind, component, digest, token, at, data, checksum)"
+                " SELECT ?, ?, ?, ?, ?, ?, ?, ?, ?, ? WHERE ? >= (SELECT token FROM fence)",
+                (*row, checksum(*row), token),
             ).rowcount
             if kind == "intent":
                 self._db.execute("PRAGMA synchronous=FULL")
@@ -382,7 +503,7 @@ def _late(token: int) -> Diagnostic:
     return error("lease", f"the lease {token} is not the current one: somebody took the bench since", hint="plan again")
 
 
-def _text(data: Any) -> str:
+def as_text(data: Any) -> str:
     """Return JSON that keeps every digit, so that a recorded result is the result."""
     return json.dumps(data, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
@@ -393,17 +514,20 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
         hint = "another process writes it; try again when that is done"
         return error("journal", f"the journal {path} is locked", hint=hint)
     if isinstance(exc, sqlite3.DatabaseError) and not isinstance(exc, sqlite3.OperationalError):
-        hint = f"move it away (`mv {path} {path}.broken`); runs in Git and the simulated table do not depend on it"
-        return error("journal", f"the journal {path} is damaged: {text}", hint=hint)
+        return error("journal", f"the journal {path} is damaged: {text}", hint=SALVAGE)
     return unwritable(path, refusing(path.parent) or exc, what=f"the journal {path} cannot be used", code="journal")
 
 
-def _run(row: tuple[Any, ...]) -> RunRecord:
-    names = ("run", "plan", "holder", "started_at", "finished_at", "outcome")
-    tally = json.loads(row[6]) if row[6] else None
-    return RunRecord(
-        **dict(zip(names, row[:6], strict=True)), tally=tally, resumed=int(row[7] or 0), number=int(row[8])
+def _record(row: tuple[Any, ...]) -> JournalRecord:
+    seq, key, _, _, kind, component, content, token, at, data, _ = row
+    return JournalRecord(
+        seq=seq, key=key, kind=kind, component=component, digest=content, token=token, at=at, data=json.loads(data)
     )
+
+
+def _decoded(data: bytes) -> str:
+    """Return a text of the database; a flipped bit must not keep the row from being read and named."""
+    return data.decode("utf-8", "surrogateescape")
 
 
 def _cut_short(key: str, operation: Operation) -> OperationResult:

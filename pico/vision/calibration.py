@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base.formats import Format
 from pico.diagnostics import PicoError, error
 from pico.disk import write_whole
-from pico.model.record import Format, as_json, digest, record
+from pico.model.record import as_json, digest, record
 from pico.vision.arm import ArmOffsets, FoundArm
 from pico.vision.camera import CameraModel
 from pico.vision.rigid import motion, rotation, rotation_vector

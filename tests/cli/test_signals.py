@@ -133,7 +133,9 @@ def test_under_nohup_a_run_goes_on(shel: Path, pico: Pico) -> None:
 def test_ctrl_backslash_stops_at_once_and_leaves_no_core(shel: Path, pico: Pico) -> None:
     process = started(shel, *APPLY)
     process.send_signal(signal.SIGQUIT)
-    (shel / ".pico/benches/sim" / "stop.json").write_text("")  # what waits goes on; who it is for is nobody
+    (shel / ".pico/benches/sim" / "stop.json").write_text(
+        '{"token": 0, "how": "now"}'
+    )  # what waits goes on; it is for nobody
     _, err = process.communicate(timeout=120)
     assert process.returncode == 130 and "Stopping at once" in err
     with Bench.open(shel) as bench:

@@ -437,9 +437,11 @@ def test_a_run_that_is_taken_up_hears_how_it_was_left(tmp_path: Path, recipe: st
 
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"recipe": 3}', "null"])
-def test_terms_that_cannot_be_read_are_none(tmp_path: Path, text: str) -> None:
+def test_terms_that_cannot_be_read_count_as_a_killed_run_that_shuts_everything(tmp_path: Path, text: str) -> None:
     unattended._write(bench_at(tmp_path), terms())
     path = bench_at(tmp_path).folder / "unattended.json"
     assert json.loads(path.read_text())["recipe"] == NAME and read(bench_at(tmp_path)) == terms()
     path.write_text(text)
-    assert read(bench_at(tmp_path)) is None and not alive(bench_at(tmp_path))
+    found = read(bench_at(tmp_path))
+    assert found is not None and found.left is None and set(found.end) == {"shut", "lamps off"}
+    assert str(path) in found.recipe and "damaged" in found.recipe and not alive(bench_at(tmp_path))

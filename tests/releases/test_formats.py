@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from pico.base.formats import Document, Format
 from pico.diagnostics import PicoError
 from pico.model.plan import FORMAT, Base, LabRef, Plan, Target, plan_from_json
-from pico.model.record import Document, Format
 
 
 def steps(count: int) -> tuple:  # type: ignore[type-arg]

@@ -133,7 +133,9 @@ def test_a_journal_of_version_2_goes_on(tmp_path: Path) -> None:
     Journal(path).close()
     with sqlite3.connect(path) as db:
         db.executescript(
-            "ALTER TABLE runs DROP COLUMN about; ALTER TABLE runs DROP COLUMN seen; PRAGMA user_version=2;"
+            "ALTER TABLE runs DROP COLUMN about; ALTER TABLE runs DROP COLUMN seen;"
+            "ALTER TABLE runs DROP COLUMN checksum;"
+            "ALTER TABLE records DROP COLUMN checksum; PRAGMA user_version=2;"
             "INSERT INTO runs (run, plan, holder, started_at) VALUES ('r1', 'sha256:a', 'ann', '2026');"
         )
     journal = Journal(path)

@@ -12,6 +12,7 @@ from dataclasses import replace
 from pico.backends.hardware.settings import Settings
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, put_down
+from pico.base.state_files import DEVICES
 from pico.diagnostics import PicoError
 from pico.geometry.seat import PlacementError, injected
 from pico.model.observation import ObservedValue
@@ -49,7 +50,7 @@ class EmulatedWorld:
         self._world, self.diagnostics = load_world(setup, place)
         self._since = self._world.clock
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
-        self._devices = Settings(place, "devices.json")
+        self._devices = Settings(place, DEVICES)
         self._pulled: set[str] = set()
         self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))

@@ -3,10 +3,10 @@ bench's folder."""
 
 from __future__ import annotations
 
-import json
 import threading
 
-from pico.disk import write_whole
+from pico.base.state_file import StateFile
+from pico.base.state_files import SETTINGS
 from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
 from pico.model.setup import Setup
@@ -17,20 +17,20 @@ class Settings:
     """Values by address, as they were told last; kept in the folder of the bench. Links tell and
     ask of it, each in a thread of its own."""
 
-    def __init__(self, place: BenchPlace, name: str = "settings.json") -> None:
-        self._path = place.folder / name
+    def __init__(self, place: BenchPlace, file: StateFile = SETTINGS) -> None:
+        self._file, self._path = file, file.path(place.folder)
         self._lock = threading.Lock()
 
     def get(self, address: str, default: Value) -> Value:
-        """Return what was told last, `default` where nothing was, or that can't be read."""
+        """Return what was told last, `default` if nothing was. Raises PicoError for a file that can't be read."""
         return self._read().get(address, default)
 
     def put(self, address: str, value: Value | None) -> None:
         """Keep what was told, None to forget it; raises PicoError where that can't be written."""
         with self._lock:
             told = {**self._read(), address: value}
-            data = json.dumps({key: v for key, v in told.items() if v is not None}, sort_keys=True).encode()
-            write_whole(self._path, data, what="the settings of the bench can't be kept", folders=True)
+            rest = {key: v for key, v in told.items() if v is not None}
+            self._file.write(self._path, rest, what="the settings of the bench can't be kept")
 
     def commanded(self, setup: Setup) -> dict[str, ObservedValue]:
         """Return the tunables that only an arm with a tool sets, by address, as they were commanded last."""
@@ -40,8 +40,4 @@ class Settings:
         return {address: known.get(address, ObservedValue(status="unknown")) for address in by_arm}
 
     def _read(self) -> dict[str, Value]:
-        try:
-            found = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return {}
-        return found if isinstance(found, dict) else {}
+        return self._file.read(self._path, dict) or {}

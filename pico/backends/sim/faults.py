@@ -10,14 +10,13 @@ while far too much does.
 
 from __future__ import annotations
 
-import json
 import random
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from typing import Any
 
+from pico.base.state_files import FAULTS
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.disk import write_whole
 from pico.geometry.shape import placed, separation
 from pico.geometry.table import overhang
 from pico.model.pose import Pose
@@ -104,25 +103,19 @@ def _rate(name: str, value: str) -> float:
 
 def faults_of(setup: Setup, place: BenchPlace) -> Faults:
     """Return the faults of a simulated bench: those that `pico sim faults` asked for, else the lab's."""
-    try:
-        data = json.loads(_path(place).read_text(encoding="utf-8"))
-        return Faults(rates={str(k): float(v) for k, v in data["rates"].items()}, seed=int(data["seed"]))
-    except FileNotFoundError:
-        return Faults(rates={str(k): v for k, v in setup.lab.sim.faults.items()}, seed=setup.lab.sim.seed)
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
-        hint = "`pico sim faults off` writes it anew"
-        raise PicoError(error("faults-file", f"{_path(place)} cannot be read: {exc}", hint=hint)) from exc
+    asked = FAULTS.read(FAULTS.path(place.folder), _faults)
+    return asked or Faults(rates={str(k): v for k, v in setup.lab.sim.faults.items()}, seed=setup.lab.sim.seed)
+
+
+def _faults(data: Mapping[str, Any]) -> Faults:
+    return Faults(rates={str(k): float(v) for k, v in data["rates"].items()}, seed=int(data["seed"]))
 
 
 def save_faults(place: BenchPlace, faults: Faults) -> None:
     """Let these faults happen on a simulated bench from now on; raises PicoError."""
     require_attached(place)
-    what = f"the faults cannot be stored in {_path(place)}"
-    write_whole(_path(place), json.dumps(as_json(faults)).encode(), what=what, code="faults-file", folders=True)
-
-
-def _path(place: BenchPlace) -> Path:
-    return place.folder / "faults.json"
+    path = FAULTS.path(place.folder)
+    FAULTS.write(path, as_json(faults), what=f"the faults cannot be stored in {path}")
 
 
 def beside(pose: Pose, draw: random.Random) -> Pose:

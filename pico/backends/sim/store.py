@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import os
 from collections.abc import Mapping
@@ -11,10 +10,11 @@ from pathlib import Path
 from typing import Any
 
 from pico.backends.sim.reconcile import reconcile
-from pico.backends.sim.world import FORMAT, FreePose, RememberedShape, World, WorldBody, new_world
+from pico.backends.sim.world import FreePose, RememberedShape, World, WorldBody, new_world
+from pico.base.state_files import WORLD
 from pico.cameras.errors import CameraShift
-from pico.diagnostics import Diagnostic, PicoError, error
-from pico.disk import sweep, write_whole, writing
+from pico.diagnostics import Diagnostic
+from pico.disk import sweep, writing
 from pico.geometry.seat import Seat
 from pico.model.catalog import Footprint
 from pico.model.observation import ObservedRobot, ObservedValue, UnknownObject
@@ -27,7 +27,7 @@ from pico.places.bench import BenchPlace
 
 def world_path(place: BenchPlace) -> Path:
     """Return where the world of a bench is kept."""
-    return place.folder / "world.json"
+    return WORLD.path(place.folder)
 
 
 def load_world(setup: Setup, place: BenchPlace) -> tuple[World, tuple[Diagnostic, ...]]:
@@ -39,18 +39,8 @@ def load_world(setup: Setup, place: BenchPlace) -> tuple[World, tuple[Diagnostic
     path = world_path(place)
     with suppress(OSError):
         sweep(path.parent)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        return new_world(setup), ()
-    except (OSError, UnicodeDecodeError) as exc:
-        raise PicoError(_broken(path, getattr(exc, "strerror", None) or "it is not text")) from exc
-    try:
-        world = world_from_json(json.loads(text))
-    except (KeyError, TypeError, ValueError, AttributeError) as exc:
-        what = f"no {exc}" if isinstance(exc, KeyError) else str(exc)
-        raise PicoError(_broken(path, what)) from exc
-    return reconcile(setup, world)
+    world = WORLD.read(path, world_from_json)
+    return reconcile(setup, world) if world else (new_world(setup), ())
 
 
 def save_world(place: BenchPlace, world: World, *, durable: bool = True) -> None:
@@ -60,8 +50,7 @@ def save_world(place: BenchPlace, world: World, *, durable: bool = True) -> None
     """
     path = world_path(place)
     what = f"the simulated table cannot be stored in {path}"
-    data = json.dumps(as_json(world), separators=(",", ":"), sort_keys=True).encode()
-    write_whole(path, data, what=what, code="world-file", folders=True, durable=durable)
+    WORLD.write(path, as_json(world), what=what, durable=durable)
     if not durable:
         return
     with writing(path, what=what, code="world-file"):
@@ -74,7 +63,7 @@ def save_world(place: BenchPlace, world: World, *, durable: bool = True) -> None
 
 def world_from_json(data: Any) -> World:
     """Return the world whose `as_json` gave `data`; raises KeyError, TypeError or ValueError for anything else."""
-    data = FORMAT.lifted(data)
+    data = WORLD.lifted(data)
     shapes = {
         k: RememberedShape(footprint=_footprint(v["footprint"]), height=_number(v["height"]))
         for k, v in data["shapes"].items()
@@ -177,8 +166,3 @@ def _unknown(data: Mapping[str, Any]) -> UnknownObject:
     return UnknownObject(
         pose=_pose(data["pose"]), footprint=_footprint(data["footprint"]), height=_number(data["height"])
     )
-
-
-def _broken(path: Path, what: str) -> Diagnostic:
-    hint = "`pico sim reset` starts the simulated table over, with every part at home"
-    return error("world-file", f"{path} cannot be read: {what}", hint=hint)

@@ -9,18 +9,17 @@ from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any
 
+from pico.base.state_files import WORLD
 from pico.cameras.errors import CameraShift
 from pico.geometry.seat import PlacementError, Seat, drawn
 from pico.model.catalog import ComponentType, Footprint, Tunable
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, Presence, UnknownObject
 from pico.model.pose import Pose
 from pico.model.quantities import Value
-from pico.model.record import Format, record
+from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.state import home_state, place_of
 from pico.optics.unseen import Unseen
-
-FORMAT = Format("pico.world")
 
 
 @record
@@ -81,7 +80,7 @@ class World:
     that no motor moves any more.
     """
 
-    schema: str = FORMAT.schema
+    schema: str = WORLD.schema
     lab: str
     seed: int = 1
     clock: float = 0.0

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base.state_files import MORNINGS
 from pico.diagnosis.quantities import Got, Quantity
-from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
 from pico.edge.network.remotes import Place
 from pico.model.diff import Change, describe_move, describe_value, value_distance
 from pico.model.pose import Pose, angle_between
-from pico.model.record import Format, as_json
+from pico.model.record import as_json
 
 if TYPE_CHECKING:
     from pico.diagnosis.nominal import Nominal
 
-FORMAT = Format("pico.mornings")
 MOST = 20
 """References that are kept."""
 _PASSING = ("illumination",)
@@ -41,27 +37,21 @@ class Reference:
 def references_in(place: Place) -> tuple[Reference, ...]:
     """Return the references that a bench has, the oldest first; raises PicoError where they
     can't be read."""
-    from pydantic import TypeAdapter, ValidationError
+    return MORNINGS.read(MORNINGS.path(place.folder), _references) or ()
 
-    path = _path(place)
-    try:
-        data = FORMAT.lifted(json.loads(path.read_text(encoding="utf-8")))
-        return tuple(TypeAdapter(tuple[Reference, ...]).validate_python(data["references"]))
-    except FileNotFoundError:
-        return ()
-    except (OSError, ValueError, KeyError, TypeError, ValidationError) as exc:
-        text = f"{path} cannot be read: {str(exc).splitlines()[0]}"
-        hint = "move it elsewhere; the next morning is then the first"
-        raise PicoError(error("morning", text, hint=hint)) from exc
+
+def _references(data: Mapping[str, Any]) -> tuple[Reference, ...]:
+    from pydantic import TypeAdapter
+
+    return tuple(TypeAdapter(tuple[Reference, ...]).validate_python(data["references"]))
 
 
 def keep(place: Place, reference: Reference) -> None:
     """Keep a reference beside the others, the oldest of which goes where there are too many; raises PicoError where it
     can't be written."""
     kept = [*references_in(place), reference][-MOST:]
-    data = json.dumps({"schema": FORMAT.schema, "references": as_json(tuple(kept))}, sort_keys=True).encode()
     what = "the reference of mornings cannot be kept"
-    write_whole(_path(place), data, what=what, code="morning", folders=True)
+    MORNINGS.write(MORNINGS.path(place.folder), {"references": as_json(tuple(kept))}, what=what)
 
 
 def reference_for(place: Place, nominal: Nominal) -> tuple[Reference | None, tuple[Change, ...]]:
@@ -73,10 +63,6 @@ def reference_for(place: Place, nominal: Nominal) -> tuple[Reference | None, tup
         if best[0] is None or len(differs) < len(best[1]):
             best = one, differs
     return best
-
-
-def _path(place: Place) -> Path:
-    return place.folder / "mornings.json"
 
 
 def differences(one: Reference, nominal: Nominal) -> tuple[Change, ...]:

@@ -7,7 +7,6 @@ and `resume` say so. The file is locked as long as the command lives; if it is k
 from __future__ import annotations
 
 import fcntl
-import json
 import os
 from collections.abc import Callable
 from contextlib import suppress
@@ -15,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.base import clock
+from pico.base.state_files import CALLED
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge.lease import user
 from pico.edge.network.opening import remembered
@@ -41,10 +41,10 @@ def keep(place: Place, command: str) -> Callable[[], None]:
     path = _path(place)
     found = Intention(command=command, at=clock.now(), operator=user(), last=_last(place))
     try:
-        file = path.open("a+", encoding="utf-8")  # of a bench that has no folder yet there is nothing to undo
+        file = path.open("ab+")  # of a bench that has no folder yet there is nothing to undo
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
         file.truncate(0)
-        file.write(json.dumps(as_json(found)))
+        file.write(CALLED.dump(as_json(found)))
         file.flush()
         os.fsync(file.fileno())
     except OSError:  # another command is at it, which says so itself, or nothing can be written
@@ -62,10 +62,10 @@ def killed(place: Place) -> Intention | None:
     """Return the command that was approved last, if it was killed before any run of it began to move something."""
     path = _path(place)
     try:
-        with path.open(encoding="utf-8") as file:
+        with path.open("rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-            found = Intention(**json.loads(file.read()))
-    except (OSError, ValueError, TypeError):
+            found = CALLED.made(path, file.read(), lambda document: Intention(**document))
+    except (OSError, PicoError):
         return None  # none, one that goes on, or one that was killed while it was written
     return None if _last(place) > found.last else found
 
@@ -94,7 +94,7 @@ def _text(found: Intention) -> str:
 
 
 def _path(place: Place) -> Path:
-    return place.folder / "called.json"
+    return CALLED.path(place.folder)
 
 
 def _last(place: Place) -> int:

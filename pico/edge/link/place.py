@@ -4,14 +4,14 @@ files, and `edge.json` in the folder of the bench names it."""
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import socket
 import tempfile
 from pathlib import Path
 
+from pico.base.state_files import EDGE
 from pico.diagnostics import PicoError, error
-from pico.disk import write_whole, writing
+from pico.disk import writing
 from pico.places.bench import BenchPlace
 
 
@@ -32,8 +32,7 @@ def _name(bench: BenchPlace) -> str:
 
 def announce(bench: BenchPlace, path: Path) -> None:
     """Let clients find the socket; raises PicoError."""
-    note = json.dumps({"socket": str(path), "pid": os.getpid()}).encode()
-    write_whole(_note(bench), note, code="link", folders=True, durable=False)
+    EDGE.write(_note(bench), {"socket": str(path), "pid": os.getpid()}, durable=False)
 
 
 def withdraw(bench: BenchPlace, path: Path) -> None:
@@ -47,16 +46,18 @@ def find(bench: BenchPlace) -> Path | None:
 
     A note that came along with a copy of the lab's folder names the socket of another bench, and counts for nothing.
     """
+    path = EDGE.read(_note(bench), lambda note: Path(note["socket"]))
+    if path is None:
+        return None
     try:
-        path = Path(json.loads(_note(bench).read_text(encoding="utf-8"))["socket"])
         if path.name != _name(bench) or path.lstat().st_uid != os.getuid():
             return None
         with socket.socket(socket.AF_UNIX) as link:
             link.connect(str(path))
-    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+    except (OSError, ValueError):
         return None
     return path
 
 
 def _note(bench: BenchPlace) -> Path:
-    return bench.folder / "edge.json"
+    return EDGE.path(bench.folder)

@@ -8,10 +8,10 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.base.state_files import UNATTENDED
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.edge.local.apparatus import Apparatus
 from pico.edge.local.sight import Sight
-from pico.edge.protocol import UNATTENDED
 from pico.model.observation import Observation
 from pico.places.attachment import require_attached
 
@@ -152,7 +152,7 @@ class Licensing:
 
     async def unattended(self) -> Terms | None:
         """Return the terms of an unattended run; see `pico.edge.contract.EdgeLicensing`."""
-        known = self._alone is not None or (self._apparatus.place.folder / UNATTENDED).exists()
+        known = self._alone is not None or UNATTENDED.path(self._apparatus.place.folder).exists()
         return self.alone.known() if known else None
 
     async def close(self) -> None:

@@ -18,10 +18,9 @@ import ssl
 from dataclasses import asdict, dataclass
 from urllib.parse import SplitResult, urlsplit
 
+from pico.base.state_files import ENROLMENT
 from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
 from pico.edge.network.messages import read
-from pico.edge.protocol import ENROLMENT
 from pico.places.bench import BenchPlace
 
 ANSWER = 20.0
@@ -62,14 +61,7 @@ class Enrolment:
 def read_enrolment(place: BenchPlace) -> Enrolment | None:
     """Return with whom the bench at `place` is enrolled; None where with nobody. Raises PicoError where its
     file can't be read."""
-    path = place.folder / ENROLMENT
-    try:
-        return Enrolment(**json.loads(path.read_text(encoding="utf-8")))
-    except FileNotFoundError:
-        return None
-    except (OSError, ValueError, TypeError) as exc:
-        text = f"with whom this bench is enrolled can't be read from {path}: {exc}"
-        raise PicoError(error("enrolment", text, hint="`pico edge enrol` does it anew")) from exc
+    return ENROLMENT.read(ENROLMENT.path(place.folder), lambda document: Enrolment(**document))
 
 
 def enrol(place: BenchPlace, url: str, code: str, pin: str = "") -> Enrolment:
@@ -82,10 +74,9 @@ def enrol(place: BenchPlace, url: str, code: str, pin: str = "") -> Enrolment:
         raise PicoError(error("enrolment", f"`{pin[:80]}` is no SHA-256 of a certificate", hint=hint))
     found = _posted(where, pin, {"code": code, "key": key.hex()})
     enrolment = Enrolment(where.geturl(), str(found["bench"]), key.hex(), pin)
-    path = place.folder / ENROLMENT
     mask = os.umask(0o077)
     try:
-        write_whole(path, (json.dumps(asdict(enrolment), indent=1) + "\n").encode(), code="enrolment", folders=True)
+        ENROLMENT.write(ENROLMENT.path(place.folder), asdict(enrolment), indent=1)
     finally:
         os.umask(mask)
     return enrolment
@@ -93,7 +84,7 @@ def enrol(place: BenchPlace, url: str, code: str, pin: str = "") -> Enrolment:
 
 def withdraw(place: BenchPlace) -> None:
     """Let the bench at `place` be granted by itself again."""
-    (place.folder / ENROLMENT).unlink(missing_ok=True)
+    ENROLMENT.path(place.folder).unlink(missing_ok=True)
 
 
 def _checked(url: str) -> SplitResult:

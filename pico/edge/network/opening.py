@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from typing import TYPE_CHECKING
 
+from pico.base.state_files import EDGE, JOURNAL
 from pico.edge.network.remotes import Far, Place
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
@@ -40,7 +41,7 @@ def line_of(place: Place) -> Line | None:
         from pico.edge.network.line import line_to
 
         return line_to(place)
-    if not (place.folder / "edge.json").exists():
+    if not EDGE.path(place.folder).exists():
         return None
     from pico.edge.link.line import SocketLine
     from pico.edge.link.place import find
@@ -84,7 +85,7 @@ def holder_of(place: Place) -> Holder | None:
 def remembered(place: Place) -> Iterator[Memory | None]:
     """Give what a bench remembers of its runs, only to read it, and None if there was none yet. Raises PicoError if it
     can't be read."""
-    line, path = line_of(place), place.folder / "journal.sqlite"
+    line, path = line_of(place), JOURNAL.path(place.folder)
     if line is not None:
         from pico.edge.link.client import RemoteEdge
 

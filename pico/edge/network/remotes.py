@@ -8,23 +8,22 @@ checkout knows several. Which one a command means: `meant.py`.
 from __future__ import annotations
 
 import fcntl
-import json
 import os
 import re
 from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 from urllib.parse import urlsplit
 
+from pico.base.state_files import REMOTES
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.disk import write_whole
 from pico.places.bench import BenchPlace, local_benches
 from pico.places.lab import BENCHES, FOLDER, lab_place, own_folder
 
 PAGE = "gui"
 """What the coordinator of `pico gui` is called while it serves."""
-FILE = "remotes.json"
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 _LOOPBACK = ("127.0.0.1", "localhost", "[::1]", "::1")
 
@@ -114,19 +113,15 @@ def known(root: Path) -> Remotes:
 
 
 def _read(root: Path) -> Remotes:
-    path = _path(root)
-    try:
-        document = json.loads(path.read_bytes())
-        named = {str(k): Remote(str(v["url"]), str(v.get("certificate", ""))) for k, v in document["remotes"].items()}
-        default, page = str(document.get("default", "")), document.get("page")
-        if default.startswith(f"{PAGE}/"):  # of an earlier PICO, with what was meant before its page was opened
-            default = str(document.get("before") or "")
-        return Remotes(named, (str(page["bench"]), str(page["as"])) if page else None, default)
-    except FileNotFoundError:
-        return Remotes()
-    except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
-        hint = "delete it, then `pico remote add NAME URL`"
-        raise PicoError(error("remote", f"{path} can't be read: {exc}", hint=hint)) from exc
+    return REMOTES.read(_path(root), _remotes) or Remotes()
+
+
+def _remotes(document: Mapping[str, Any]) -> Remotes:
+    named = {str(k): Remote(str(v["url"]), str(v.get("certificate", ""))) for k, v in document["remotes"].items()}
+    default, page = str(document.get("default", "")), document.get("page")
+    if default.startswith(f"{PAGE}/"):  # of an earlier PICO, with what was meant before its page was opened
+        default = str(document.get("before") or "")
+    return Remotes(named, (str(page["bench"]), str(page["as"])) if page else None, default)
 
 
 def keep(root: Path, remotes: Remotes) -> None:
@@ -134,8 +129,7 @@ def keep(root: Path, remotes: Remotes) -> None:
     named = {name: {"url": one.url, "certificate": one.certificate} for name, one in sorted(remotes.named.items())}
     default = {"default": remotes.default} if remotes.default else {}
     page = {"page": {"bench": remotes.page[0], "as": remotes.page[1]}} if remotes.page else {}
-    data = json.dumps({"remotes": named, **default, **page}, indent=1) + "\n"
-    write_whole(_path(root), data.encode(), folders=True)
+    REMOTES.write(_path(root), {"remotes": named, **default, **page}, indent=1)
 
 
 def added(remotes: Remotes, name: str, remote: Remote) -> Remotes:
@@ -244,5 +238,5 @@ def lock_of_page(root: Path) -> Path:
 def _path(root: Path) -> Path:
     place = lab_place(root)
     if place is None:
-        return own_folder(root) / FILE
-    return place.common / "pico" / (f"{place.inside.replace('/', '%')}-" if place.inside != "." else "") / FILE
+        return REMOTES.path(own_folder(root))
+    return REMOTES.path(place.common / "pico" / (f"{place.inside.replace('/', '%')}-" if place.inside != "." else ""))

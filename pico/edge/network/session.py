@@ -6,6 +6,7 @@ import os
 import secrets
 from pathlib import Path
 
+from pico.base.state_files import RUNS_BEGUN, SESSION
 from pico.disk import write_whole
 
 VARIABLE = "PICO_SESSION"
@@ -16,7 +17,7 @@ def session_in(folder: Path) -> str:
     comes before it, for what runs in the name of somebody elsewhere."""
     if said := os.environ.get(VARIABLE):
         return said
-    path = folder / "session"
+    path = SESSION.path(folder)
     try:
         if found := path.read_text(encoding="ascii").strip():
             return found
@@ -30,12 +31,14 @@ def session_in(folder: Path) -> str:
 def begun(folder: Path, run: str) -> None:
     """Note that this checkout began a run, which it will carry into a commit; raises PicoError."""
     if run not in runs_begun(folder):
-        write_whole(folder / "runs", "".join(f"{one}\n" for one in [*runs_begun(folder), run]).encode(), folders=True)
+        write_whole(
+            RUNS_BEGUN.path(folder), "".join(f"{one}\n" for one in [*runs_begun(folder), run]).encode(), folders=True
+        )
 
 
 def runs_begun(folder: Path) -> tuple[str, ...]:
     """Return the runs that this checkout began, in order."""
     try:
-        return tuple((folder / "runs").read_text(encoding="utf-8").split())
-    except OSError:
+        return tuple(RUNS_BEGUN.path(folder).read_text(encoding="utf-8").split())
+    except (OSError, UnicodeError):
         return ()

@@ -17,6 +17,7 @@ from contextlib import suppress
 from dataclasses import asdict
 from typing import TYPE_CHECKING, Any
 
+from pico.base.state_files import GATE
 from pico.control.gate import Command
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.lease import on_behalf_of
@@ -51,7 +52,7 @@ class Uplink:
         """`say`: is told when the line is there, when it is cut, and what hinders the edge. Raises PicoError where the
         edge can't keep what it must."""
         self._edge, self._enrolment, self._answering = edge, enrolment, Answering(edge)
-        self.granting = Granting(edge.place.folder / "gate.sqlite", edge.lock.last_token())
+        self.granting = Granting(GATE.path(edge.place.folder), edge.lock.last_token())
         edge.granted_by(self.granting)
         self._news = asyncio.Event()
         self._asked: dict[int, float] = {}

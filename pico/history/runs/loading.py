@@ -101,6 +101,16 @@ def _loaded(folder: LabFolder, word: str | None) -> tuple[RecordedRun, Commit | 
     return _carried(folder, places[name], wrong) if name in places else _member(folder, name, folded[name], wrong)
 
 
+def carried_at(folder: LabFolder, place: RunPlace) -> RecordedRun:
+    """Return the run that a commit has at a place; raises PicoError for a document that is damaged."""
+    return _carried(folder, place, [])[0]
+
+
+def member_at(folder: LabFolder, name: str, place: RunPlace) -> RecordedRun:
+    """Return a run as it was before it was folded into the one at a place; raises PicoError as `carried_at` does."""
+    return _member(folder, name, place, [])[0]
+
+
 def _member(folder: LabFolder, name: str, place: RunPlace, wrong: list[Diagnostic]) -> tuple[RecordedRun, Commit]:
     """Return a run as it was before it was folded into the one at a place."""
     whole, commit = _carried(folder, place, wrong)

@@ -9,8 +9,9 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Any
 
+from pico.base.formats import Format
 from pico.model.primitive import primitive
-from pico.model.record import Format, record
+from pico.model.record import record
 from pico.model.setup import Setup
 
 FORMAT = Format("pico.twin")

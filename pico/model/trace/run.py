@@ -7,9 +7,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import field
 from typing import Any, Literal
 
+from pico.base.formats import Format
 from pico.model.diff import Change
 from pico.model.plan import LabRef
-from pico.model.record import Format, record
+from pico.model.record import record
 from pico.model.trace.expectation import Expected
 
 FORMAT = Format("pico.run")

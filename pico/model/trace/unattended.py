@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import field
 
+from pico.base.state_files import UNATTENDED
 from pico.diagnostics import Diagnostic
 from pico.model.arming import LaserClass
 from pico.model.quantities import Value
-from pico.model.record import Format, record
+from pico.model.record import record
 
-FORMAT = Format("pico.unattended")
 SHUT, PARKED, LAMPS_OFF = "shut", "parked", "lamps off"
 ENDS = (SHUT, PARKED, LAMPS_OFF)
 """How a bench may be left: no laser emits; arms are parked; what lights the table is off."""
@@ -33,7 +33,7 @@ class Terms:
     ISO 8601, UTC), how often [s] its client says that it goes on, how the bench is left at its `end`; `left` once it
     was."""
 
-    schema: str = FORMAT.schema
+    schema: str = UNATTENDED.schema
     recipe: str
     laser_class: LaserClass
     until: str

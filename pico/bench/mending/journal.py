@@ -1,0 +1,81 @@
+"""The journal of a bench, examined and salvaged: `pico doctor`, `pico doctor --journal`."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from pico.base.state_files import JOURNAL
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.edge.lease import BenchLock
+from pico.history.runs.carrying import carried_runs
+from pico.places.bench import BenchPlace
+from pico.runs.damage import SALVAGE, FromCommit, from_commit
+from pico.runs.salvage import Examined, Salvage, examined, replace_journal, salvage, write_journal
+
+NAMED = 5
+"""So many runs are named one by one."""
+
+
+@dataclass(frozen=True)
+class Salvaged:
+    """What becomes of the journal of a bench: `damaged` says whether anything is; `aside` is where the old one now
+    lies, None if nothing was changed."""
+
+    bench: str
+    path: Path
+    damaged: bool
+    made: Salvage
+    broken: str = ""
+    aside: Path | None = None
+
+
+def examine_journal(root: Path, path: Path) -> Iterator[Diagnostic]:
+    """Yield what is wrong with a journal of the lab in `root`: damaged rows by run, an error if no commit has it."""
+    try:
+        found = examined(path)
+    except PicoError as exc:
+        yield from exc.diagnostics
+        return
+    if found.broken:
+        yield error("journal", f"the journal {path} is damaged: {found.broken}", hint=SALVAGE)
+    for run, what in found.damaged().items():
+        text = f"run {run} in the journal of the bench {path.parent.name} is damaged ({_some(what)}): {path}"
+        if from_commit(path, run) is not None:
+            hint = "PICO reads the run from its commit; `pico doctor --journal --yes` writes the journal anew"
+            yield warning("journal-record", text, hint=hint)
+        else:
+            yield error("journal-record", f"{text}; no commit has that run", hint=SALVAGE)
+
+
+def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
+    """Return what a new journal of a bench would hold, and what would be lost. `write`: put it in the place of the old
+    one, which is set aside and never deleted. Raises PicoError, exit code LOCKED if somebody moves the bench."""
+    path = JOURNAL.path(place.folder)
+    if not path.exists():
+        hint = f"`pico --bench {place.name} status` shows the bench"
+        raise PicoError(error("journal", f"the bench {place.name} has no journal: {path}", hint=hint))
+    if not write:
+        return _salvaged(place, path, examined(path))
+    with BenchLock(place).held("pico doctor --journal"):
+        found = _salvaged(place, path, examined(path))
+        if not found.damaged:
+            return found
+        new = path.with_name(f".{path.name}.new")
+        for old in new.parent.glob(f"{new.name}*"):  # of a command that was killed
+            old.unlink()
+        write_journal(found.made, new)
+        return Salvaged(found.bench, path, True, found.made, found.broken, replace_journal(path, new))
+
+
+def _salvaged(place: BenchPlace, path: Path, found: Examined) -> Salvaged:
+    known: Callable[[str], FromCommit | None] = lambda run: from_commit(path, run)  # noqa: E731
+    committed = carried_runs(place.attached.root, place.title) if found.broken else ()
+    made = salvage(found, known, committed)
+    return Salvaged(place.name, path, bool(found.broken or found.damaged()), made, found.broken)
+
+
+def _some(names: list[str]) -> str:
+    more = f" and {len(names) - NAMED} more" if len(names) > NAMED else ""
+    return f"{', '.join(names[:NAMED])}{more}"
