@@ -5,7 +5,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.installed
 
-.PHONY: demo test affected test-slow test-gui slowest check schemas ui clean
+.PHONY: demo test affected test-slow test-gui slowest check schemas docs ui clean
 .DELETE_ON_ERROR:
 
 demo: $(STAMP)
@@ -31,6 +31,7 @@ check: $(STAMP)
 	$(BIN)/mypy
 	$(BIN)/python -m pico.manifest.schema --check
 	$(BIN)/python -m pico.recipes.schema --check
+	$(BIN)/python .ci/state_files.py --check
 	$(BIN)/python .ci/page.py check
 	$(BIN)/python .ci/wheel.py
 
@@ -45,6 +46,10 @@ test-gui: $(STAMP)
 schemas: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema
 	$(BIN)/python -m pico.recipes.schema
+
+# The pages of docs/ that are printed from the code.
+docs: $(STAMP)
+	$(BIN)/python .ci/state_files.py
 
 $(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py .ci/install.py
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'

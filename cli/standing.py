@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from pico.base.state_files import WORLD
 from pico.diagnostics import Diagnostic, warning
 from pico.disk import of_disk
 from pico.edge.network.remotes import Place
@@ -17,7 +18,7 @@ class Standing:
 
     def __init__(self, place: Place) -> None:
         root, self.place, self.begun = place.root, place, False
-        world = place.folder / "world.json"
+        world = WORLD.path(place.folder)
         self.table = world.stat().st_mtime_ns if world.exists() else 0
         self.manifests = read_folder(root)[0]
         at = places(root)

@@ -68,12 +68,13 @@ def _kept(folder: Path) -> tuple[Diagnostic, ...]:
     from pico.manifest.load import find_lab
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench
+    from pico.recipes.log import Log
 
     try:
         root = find_lab(folder)
     except PicoError:  # which is said already
         return ()
-    found = damaged_files(root)
+    found = damaged_files(root, Log.read)
     try:
         lost = tuple(one for name in shipped() if (one := lost_bench(BenchPlace(root, name))))
     except PicoError:  # what Git's own folder knows is damaged, and told

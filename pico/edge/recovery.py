@@ -7,6 +7,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
+from pico.base.state_files import WORLD
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.diff import deviation, value_distance
 from pico.model.observation import Observation, ObservedComponent
@@ -112,7 +113,7 @@ def require_unmoved(path: Path) -> None:
     """Raise PicoError where the journal at `path`, if it can be read, has a simulated run in which anything was done:
     for the simulated table is not there any more."""
     if _was_moved(path):
-        text = f"the simulated table is not in {path.parent / 'sim'}, and the journal has runs that moved this table"
+        text = f"{WORLD.path(path.parent)} is gone, and the journal has runs that moved this simulated table"
         hint = "`pico sim reset` starts the simulated table over, with every part at home"
         raise PicoError(error("world-file", text, hint=hint))
 

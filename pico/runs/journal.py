@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
+import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -43,6 +44,8 @@ from pico.version import upgrade_hint
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
 VERSION = 4
+MAKING = 5.0
+"""Seconds within which a process that makes a journal has written its tables."""
 RECENT = 2000
 """So many records are checked before anything is written, and with them anything moves."""
 SMALL = 1000
@@ -151,6 +154,8 @@ class Journal:
         self._sums = "checksum"
         self._in_commits: dict[str, FromCommit | None] = {}
         with self._guarded():
+            if is_emptied(path):
+                raise sqlite3.DatabaseError("the file is empty")
             try:
                 if not looking:
                     path.parent.mkdir(parents=True, exist_ok=True)
@@ -491,6 +496,15 @@ class Journal:
             raise PicoError(error("journal-key", f"this is recorded in {self.path} already: {exc}")) from exc
         except (sqlite3.Error, OSError) as exc:
             raise PicoError(_trouble(self.path, exc)) from exc
+
+
+def is_emptied(path: Path) -> bool:
+    """Whether a journal is an empty file, and not one that another process makes at this moment."""
+    try:
+        found = path.stat()
+    except OSError:
+        return False
+    return found.st_size == 0 and time.time() - found.st_mtime > MAKING
 
 
 def _is_open(path: Path) -> bool:

@@ -24,7 +24,7 @@ from pico.runs.damage import (
     is_sound_record,
     sums_of_run,
 )
-from pico.runs.journal import HEAD, ROW, Journal, as_text, operation_from_json
+from pico.runs.journal import HEAD, ROW, Journal, as_text, is_emptied, operation_from_json
 
 MOST = 10_000_000
 """Rows that are tried one by one at most if a table can't be read from its beginning to its end."""
@@ -86,6 +86,8 @@ class Salvage:
 def examined(path: Path) -> Examined:
     """Return all that can be read of the journal at `path`; the file and what lies beside it stay untouched. Raises
     PicoError if they can't be copied."""
+    if is_emptied(path):
+        return Examined(broken="the file is empty")
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / path.name
         with writing(copy):
@@ -266,7 +268,8 @@ def replace_journal(path: Path, new: Path) -> Path:
     while aside.exists():
         number, aside = number + 1, path.with_name(f"{path.name}.damaged-{number}")
     with writing(path):
-        os.link(path, aside)
+        if path.exists():
+            os.link(path, aside)
         for suffix in ("-wal", "-shm"):  # before the new one takes the place: SQLite would play the old log into it
             if (one := path.with_name(path.name + suffix)).exists():
                 one.rename(aside.with_name(aside.name + suffix))

@@ -267,7 +267,7 @@ def test_a_broken_world_does_not_leave_the_bench_locked(bench: LocalEdge) -> Non
 def test_a_table_that_was_moved_and_is_not_stored_is_an_error_until_it_is_reset(bench: LocalEdge) -> None:
     executed(bench, move("p1", P1, GOAL))
     world_path(bench.place).unlink()
-    with pytest.raises(PicoError, match=r"the simulated table is not in .*sim, and the journal has runs") as caught:
+    with pytest.raises(PicoError, match=r"world\.json is gone, and the journal has runs") as caught:
         asyncio.run(bench.observe())
     assert caught.value.diagnostics[0].code == "world-file" and "pico sim reset" in caught.value.diagnostics[0].hint
     reset_world(SETUP, bench.place.root, "test")

@@ -12,7 +12,7 @@ from pico.backends.sim.store import world_from_json
 from pico.base import state_files
 from pico.base.state_file import StateFile, quoted
 from pico.base.state_files import files_below
-from pico.bench.mending.journal import examine_journal
+from pico.bench.mending.journal import examine_journal, missing_journal
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge import armings, dose, own_lab
 from pico.edge.network.enrolment import read_enrolment
@@ -25,12 +25,13 @@ from pico.places.record import read_record
 from pico.places.seals import sealed_labs
 
 
-def damaged_files(root: Path) -> tuple[Diagnostic, ...]:
+def damaged_files(root: Path, read_log: Callable[[Path], object]) -> tuple[Diagnostic, ...]:
     """Return what is wrong with the files that PICO keeps of the lab in `root`, each named with its path, what is lost
-    with it and what to do; what PICO mends itself is a warning."""
+    with it and what to do; what PICO mends itself is a warning. `read_log`: reads what a run of a recipe has done, and
+    raises PicoError."""
     found = dict[str, Diagnostic]()
     for path, name, entry in files_below(root):
-        for one in _of_file(root, path, name, entry):
+        for one in _of_recipe(path, read_log) if entry is state_files.RECIPE_LOG else _of_file(root, path, name, entry):
             found.setdefault(f"{path}{one.summary}", one)
     for one in _as_read(root):
         if not any(one.summary == known.summary for known in found.values()):
@@ -52,8 +53,6 @@ def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iter
     elif entry is state_files.GATE:
         if path.name == entry.name and (why := _wrong_database(path)):
             yield entry.damaged(path, why)
-    elif entry is state_files.RECIPE_LOG:
-        yield from _of_recipe(path)
     elif not entry.text:
         make: Callable[..., object] = world_from_json if entry is state_files.WORLD else dict
         if (wrong := entry.wrong(path, make)) is not None:
@@ -61,11 +60,9 @@ def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iter
             yield replace(wrong, severity="warning", hint="PICO makes it anew") if mends else wrong
 
 
-def _of_recipe(path: Path) -> Iterator[Diagnostic]:
-    from pico.recipes.log import Log
-
+def _of_recipe(path: Path, read_log: Callable[[Path], object]) -> Iterator[Diagnostic]:
     try:
-        Log.read(path)
+        read_log(path)
     except PicoError as exc:
         yield from exc.diagnostics
 
@@ -88,6 +85,7 @@ def _as_read(root: Path) -> Iterator[Diagnostic]:
     for place in _benches(root):
         asked += [lambda at=place: own_lab.read(at), lambda at=place: dose.read(at)]  # type: ignore[misc]
         asked += [lambda at=place: read_enrolment(at)]  # type: ignore[misc]
+        yield from missing_journal(place)
         for one in armings.kept(place):
             if one.broken:
                 path = place.folder / armings.FOLDER / f"{one.laser}.json"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from pico.base.state_files import JOURNAL
+from pico.base.state_files import JOURNAL, OWN_LAB
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge.lease import BenchLock
 from pico.history.runs.carrying import carried_runs
@@ -49,17 +49,29 @@ def examine_journal(root: Path, path: Path) -> Iterator[Diagnostic]:
             yield error("journal-record", f"{text}; no commit has that run", hint=SALVAGE)
 
 
+def missing_journal(place: BenchPlace) -> Iterator[Diagnostic]:
+    """Yield that a bench has a Lab of its own and no journal, though commits hold runs of it."""
+    path = JOURNAL.path(place.folder)
+    if path.exists() or not OWN_LAB.path(place.folder).exists():
+        return
+    try:
+        known = carried_runs(place.attached.root, place.title)
+    except PicoError:  # a repository or manifests that can't be read, which is told already
+        return
+    if known:
+        text = f"the bench {place.name} has no journal, and commits hold {len(known)} runs of it: {path}"
+        hint = "if it was deleted, `pico doctor --journal --yes` makes a new one of what commits hold"
+        yield warning("journal", text, hint=hint)
+
+
 def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
     """Return what a new journal of a bench would hold, and what would be lost. `write`: put it in the place of the old
     one, which is set aside and never deleted. Raises PicoError, exit code LOCKED if somebody moves the bench."""
     path = JOURNAL.path(place.folder)
-    if not path.exists():
-        hint = f"`pico --bench {place.name} status` shows the bench"
-        raise PicoError(error("journal", f"the bench {place.name} has no journal: {path}", hint=hint))
     if not write:
-        return _salvaged(place, path, examined(path))
+        return _salvaged(place, path, _examined(path))
     with BenchLock(place).held("pico doctor --journal"):
-        found = _salvaged(place, path, examined(path))
+        found = _salvaged(place, path, _examined(path))
         if not found.damaged:
             return found
         new = path.with_name(f".{path.name}.new")
@@ -67,6 +79,10 @@ def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
             old.unlink()
         write_journal(found.made, new)
         return Salvaged(found.bench, path, True, found.made, found.broken, replace_journal(path, new))
+
+
+def _examined(path: Path) -> Examined:
+    return examined(path) if path.exists() else Examined(broken="the file is gone")
 
 
 def _salvaged(place: BenchPlace, path: Path, found: Examined) -> Salvaged:

@@ -1,0 +1,404 @@
+"""The registry of what PICO keeps on disk: it is complete, it is documented, and no damage of a file is silent."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import runpy
+import shutil
+import sqlite3
+import subprocess
+from collections.abc import Callable, Iterator
+from contextlib import closing
+from pathlib import Path
+from typing import Any
+
+import pytest
+from commanding import Pico
+
+from pico.base import state_files
+from pico.base.formats import Format
+from pico.base.state_file import StateFile
+from pico.base.state_files import ALL, entry_of, files_below
+from pico.bench.mending.files import damaged_files
+from pico.diagnostics import PicoError
+from pico.edge import dose, stopping, unattended
+from pico.edge.lease import BenchLock
+from pico.places.bench import BenchPlace
+from pico.places.record import read_record
+from pico.recipes.log import Log
+from pico.runs.journal import Journal
+
+ROOT = Path(__file__).resolve().parent.parent
+JSON = [file for file in ALL if not file.text]
+ELSEWHERE = {
+    "benches/BENCH/dose.json": "samples", "benches/BENCH/unattended.json": "unattended runs",
+    "benches/BENCH/unattended.lock": "unattended runs", "benches/BENCH/armed/LASER.json": "lasers that are armed",
+    ".git/pico/armed/DIGEST": "lasers that are armed", "benches/BENCH/mornings.json": "light on a detector",
+    "benches/BENCH/recipes/RUN.jsonl": "recipes", "benches/BENCH/recipes/RUN.out": "detached recipes",
+    "benches/BENCH/recipes/RUN.pid": "detached recipes", "benches/BENCH/points/KEY.jsonl": "searches under way",
+    "benches/BENCH/run": "runs under way", "benches/BENCH/holder.json": "runs under way",
+    "benches/BENCH/called.json": "runs under way", "benches/BENCH/seen.json": "cameras that look",
+    "benches/BENCH/hands.json": "hands that are felt", "benches/BENCH/settings.json": "devices",
+    "benches/BENCH/devices.json": "devices", "benches/BENCH/enrolment.json": "coordinators",
+    "benches/BENCH/gate.sqlite": "coordinators", "benches/BENCH/edge.json": "served benches",
+    "benches/HOST/LAB/BENCH/session": "coordinators", "benches/HOST/LAB/BENCH/runs": "coordinators",
+    "benches/HOST/LAB/BENCH/detached": "coordinators", "benches/BENCH/replaced/**": "attachments",
+    "benches/BENCH/incoming/**": "attachments", "claims.json": "claims", "benches/layout.json": "old layouts",
+    "unsorted/**": "old layouts", "earlier-N/**": "old layouts", "splitting/**": "old layouts",
+    "split.lock": "old layouts", "cas/**": "labs outside Git", "gui/**": "the page",
+    ".git/pico/[LAB-]/remotes.json": "coordinators", ".git/pico/[LAB-]/gui.lock": "the page",
+    ".git/pico/cas/**": "measurements", ".git/pico/COMMIT_EDITMSG": "editors", "benches/BENCH/stop.json": "stops",
+}  # fmt: skip
+"""Entries that the session below leaves no file of, each with what does."""
+
+
+def session(pico: Pico) -> None:
+    """Do what a day at the bench does."""
+    for words in (
+        "bench use sim", "apply --fidelity kinematic --auto-approve", "commit -m base", "sim faults drop=0.0",
+        "set p1 angle=3 --yes", "undo --yes", "status", "drift", "runs list",
+    ):  # fmt: skip
+        answer = pico(*words.split())
+        assert answer.code in (0, 2), (words, answer.err)
+
+
+@pytest.fixture(scope="module")
+def day(case_study: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """The example after a day at its simulated bench, to be copied."""
+    from contextlib import chdir, redirect_stderr, redirect_stdout
+    from io import StringIO
+
+    from commanding import Answer
+    from pico_cli.main import main
+
+    root = Path(shutil.copytree(case_study, tmp_path_factory.mktemp("day") / "shel"))
+
+    def call(*words: str) -> Answer:
+        with redirect_stdout(StringIO()) as out, redirect_stderr(StringIO()) as err:
+            code = main(words)
+        return Answer(int(code), out.getvalue(), err.getvalue())
+
+    with pytest.MonkeyPatch.context() as patch, chdir(root):
+        for who in ("AUTHOR", "COMMITTER"):
+            patch.setenv(f"GIT_{who}_NAME", "A Physicist")
+            patch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
+        session(call)
+    yield root
+
+
+@pytest.fixture
+def lab(day: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    root = Path(shutil.copytree(day, tmp_path / "shel"))
+    monkeypatch.chdir(root)
+    for who in ("AUTHOR", "COMMITTER"):
+        monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
+        monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
+    return root
+
+
+# the registry
+
+
+def test_every_file_of_a_day_at_the_bench_is_in_the_registry_and_every_entry_occurs_or_is_explained(lab: Path) -> None:
+    found = {name: entry for _, name, entry in files_below(lab)}
+    assert [name for name, entry in found.items() if entry is None] == []
+    git = {p.relative_to(lab).as_posix() for p in (lab / ".git/pico").rglob("*") if p.is_file()}
+    assert [name for name in git if entry_of(name) is None] == []
+    seen = {entry.pattern for entry in found.values() if entry} | {e.pattern for n in git if (e := entry_of(n))}
+    assert {file.pattern for file in ALL} - seen - ELSEWHERE.keys() == {"**.damaged**"}
+    assert damaged_files(lab, Log.read) == ()
+
+
+def test_what_is_written_of_a_file_that_no_session_leaves_is_by_its_entry() -> None:
+    """So that an entry that occurs nowhere any more is noticed: its constant is used outside the registry."""
+    library = "\n".join(
+        path.read_text()
+        for top in ("pico", "cli")
+        for path in (ROOT / top).rglob("*.py")
+        if path.name != "state_files.py"
+    )
+    constants = {name: one for name, one in vars(state_files).items() if isinstance(one, StateFile)}
+    assert set(constants.values()) == set(ALL)
+    plain = {name for name, one in constants.items() if not one.text}
+    assert [name for name in sorted(plain) if not re.search(rf"\b{name}\b", library)] == []
+
+
+def test_no_module_names_a_state_file_of_its_own() -> None:
+    names = {file.name for file in JSON if "LASER" not in file.name}
+    old = {"places/layout.py", "places/sorting.py", "places/splitting.py", "places/attachment.py"}
+    own = [
+        f"{path.relative_to(ROOT)}: {name}"
+        for top in ("pico", "cli")
+        for path in (ROOT / top).rglob("*.py")
+        if path.name != "state_files.py" and not any(str(path).endswith(one) for one in old)
+        for name in names
+        if f'/ "{name}"' in path.read_text()
+    ]
+    assert own == [], "take the entry of pico/base/state_files.py"
+
+
+def test_the_page_of_state_files_is_as_the_registry_has_it() -> None:
+    made = runpy.run_path(str(ROOT / ".ci" / "state_files.py"))
+    assert (ROOT / "docs/reference/state-files.md").read_text() == made["page"](), "run `make docs`"
+
+
+def test_every_entry_says_what_is_lost_and_how_to_go_on() -> None:
+    for file in ALL:
+        assert file.holds and file.writer
+        if file.kind in ("record", "safety"):
+            assert file.lost or file is state_files.STOP, file.pattern
+        if file.kind in ("record", "safety") and not file.text:
+            assert "`" in file.remedy or "delete it" in file.remedy, file.pattern
+
+
+# one file
+
+
+@pytest.mark.parametrize("file", JSON, ids=lambda file: file.pattern)
+def test_whatever_befalls_a_json_file_is_noticed(tmp_path: Path, file: StateFile) -> None:
+    path = tmp_path / file.name
+    document = {"a": 1.5, "b": ["x", {"c": None}], "größe": "µ"}
+    file.write(path, document)
+    assert file.read(path, dict) == document | ({"schema": file.schema} if file.format else {})
+    whole = path.read_bytes()
+    json.loads(whole)  # it stays JSON for whoever looks
+    body = whole.index(b", ") + 2
+    damages = [whole[:cut] for cut in range(0, len(whole) - 2, 7)]
+    for at in range(body, len(whole) - 1):
+        damages.append(whole[:at] + bytes([whole[at] ^ (1 << at % 8)]) + whole[at + 1 :])
+    for data in damages:
+        path.write_bytes(data)
+        wrong = file.wrong(path)
+        assert wrong is not None, data
+        assert str(path) in wrong.summary and wrong.hint and wrong.detail
+        if file.kind in ("record", "safety"):
+            with pytest.raises(PicoError) as refused:
+                file.read(path, dict)
+            assert refused.value.diagnostics[0] == wrong
+        else:
+            assert file.read(path, dict) is None
+
+
+def test_a_file_of_before_the_checksums_is_read_and_one_of_a_newer_version_is_refused(tmp_path: Path) -> None:
+    file = StateFile("a.json", "record", "x", "y", "z", "`mv {path} b`", Format("pico.a"))
+    path = tmp_path / "a.json"
+    path.write_text('{"schema": "pico.a/v1", "n": 1}')
+    assert file.read(path, lambda found: found["n"]) == 1
+    path.write_text('{"n": 2, "schema": "pico.a/v1", "sha256": "carried along by an earlier version"}')
+    assert file.read(path, dict) == {"schema": "pico.a/v1", "n": 2}
+    path.write_text('{"schema": "pico.a/v2"}')
+    with pytest.raises(PicoError, match="newer PICO") as refused:
+        file.read(path, dict)
+    assert refused.value.diagnostics[0].hint.startswith("update PICO")
+
+
+def test_what_keeps_people_safe_is_never_read_as_nothing(tmp_path: Path) -> None:
+    place = BenchPlace(tmp_path, "sim")
+    place.own.mkdir(parents=True)
+    (place.own / "dose.json").write_text("{")
+    with pytest.raises(PicoError, match=r"dose\.json"):
+        dose.read(place)
+    (place.own / "unattended.json").write_text("{")
+    terms = unattended.read(place)
+    assert terms is not None and set(terms.end) == {"shut", "lamps off"} and terms.left is None
+    (place.own / "stop.json").write_text("{")
+    assert stopping.asked_to_stop(place, 1) == "now"
+    with BenchLock(place).held("test"):  # what lay there before a lease is not for it
+        assert stopping.asked_to_stop(place, 1) is None
+
+
+def test_the_token_of_a_damaged_lock_is_above_all_that_were_given(tmp_path: Path) -> None:
+    place = BenchPlace(tmp_path, "sim")
+    with BenchLock(place).held("one") as first:
+        assert first.token == 1
+    lock = place.own / "lock"
+    whole = lock.read_bytes()
+    for at in range(len(whole.partition(b"\n")[0].strip())):
+        lock.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
+        assert BenchLock(place).last_token() > 1_000_000_000
+    lock.write_bytes(b"%-31d\n" % 41)  # as an earlier version wrote it
+    assert BenchLock(place).last_token() == 41
+
+
+def test_a_damaged_record_of_worktrees_is_named_and_not_read_as_none(lab: Path) -> None:
+    from pico.places.lab import lab_place
+
+    place = lab_place(lab)
+    assert place is not None and read_record(place)
+    place.record.write_bytes(place.record.read_bytes()[:-9])
+    with pytest.raises(PicoError, match=r"bench\.json") as refused:
+        read_record(place)
+    assert "git attach" in refused.value.diagnostics[0].hint
+
+
+# a lab with a damaged file
+
+
+def flipped(path: Path, share: float) -> None:
+    data = bytearray(path.read_bytes())
+    data[min(int(share * len(data)), len(data) - 1)] ^= 4
+    path.write_bytes(data)
+
+
+DAMAGES: dict[str, Callable[[Path], object]] = {
+    "flip": lambda path: flipped(path, 0.6),
+    "cut": lambda path: path.write_bytes(path.read_bytes()[: path.stat().st_size // 2]),
+    "empty": lambda path: (path.write_bytes(b""), os.utime(path, (1, 1))),
+    "gone": lambda path: path.unlink(),
+}
+FILES = ("world.json", "lab.json", "faults.json", "journal.sqlite", "lock")
+
+
+@pytest.mark.parametrize("how", DAMAGES)
+@pytest.mark.parametrize("name", FILES)
+def test_a_damaged_file_of_a_bench_is_named_with_a_way_on_or_harmless(
+    lab: Path, pico: Pico, name: str, how: str
+) -> None:
+    path = lab / ".pico/benches/sim" / name
+    DAMAGES[how](path)
+    answer = pico("plan", "e1", "--json")
+    assert "internal" not in answer.err and "Traceback" not in answer.err
+    if answer.code not in (0, 2):
+        found = json.loads(answer.out)["diagnostics"] if answer.out.startswith("{") else []
+        said = answer.out + answer.err
+        assert (name in said and "`pico " in said) or "`mv " in said, (found, said)
+    doctor = pico("doctor")
+    assert "internal" not in doctor.err
+    if how in ("cut", "empty") and name != "lock":
+        assert name in doctor.err and doctor.code == 1
+
+
+@pytest.mark.parametrize("name", ["chosen.json", "audit.json"])
+def test_a_damaged_file_of_a_lab_is_named_or_made_anew(lab: Path, pico: Pico, name: str) -> None:
+    path = lab / ".pico" / name
+    flipped(path, 0.8)
+    answer = pico("plan", "e1")
+    if name == "audit.json":
+        assert answer.code in (0, 2)
+        assert json.loads(path.read_text())["audit"], "the cache is made anew"
+    else:
+        assert answer.code == 1 and str(path) in answer.err and "`pico bench use sim`" in answer.err
+        assert pico("bench", "use", "sim").code == 0 and pico("plan", "e1").code == 0
+
+
+# the journal
+
+
+def spoil(path: Path, sql: str) -> None:
+    with closing(sqlite3.connect(path)) as db:
+        db.execute(sql)
+        db.commit()
+
+
+@pytest.fixture
+def committed(lab: Path, pico: Pico) -> Path:
+    """The lab with all its runs in commits."""
+    assert pico("commit", "-m", "all").code == 0
+    with closing(sqlite3.connect(lab / ".pico/benches/sim/journal.sqlite")) as db:
+        db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+    return lab
+
+
+def test_a_flipped_bit_in_a_record_that_a_commit_has_stops_nothing(committed: Path, pico: Pico) -> None:
+    path = committed / ".pico/benches/sim/journal.sqlite"
+    with closing(Journal(path, looking=True)) as journal:
+        before = journal.records()
+        runs = journal.runs()
+    data = bytearray(path.read_bytes())
+    at = data.find(b'{"status', 20000)
+    assert at > 0
+    data[at + 1] ^= 1
+    path.write_bytes(data)
+    for words in ("plan e1", "drift", "set p1 angle=4 --yes", "undo --yes", "commit -m x --allow-empty"):
+        answer = pico(*words.split())
+        assert "internal" not in answer.err and answer.code in (0, 1, 2), (words, answer.err)
+        assert "damaged" not in answer.err, words
+    doctor = pico("doctor")
+    assert "journal-record" in doctor.err and "reads the run from its commit" in doctor.err
+    assert pico("doctor", "--journal").code == 2
+    done = pico("doctor", "--journal", "--yes", "--json")
+    assert done.code == 0 and done.data["lost"] == [] and len(done.data["from_commits"]) == 1
+    assert Path(done.data["aside"]).exists()
+    with closing(Journal(path, looking=True)) as journal:
+        after = journal.records()[: len(before)]
+        assert [run.run for run in journal.runs()][: len(runs)] == [run.run for run in runs]
+    assert [(r.key, r.kind, r.component) for r in after] == [(r.key, r.kind, r.component) for r in before]
+    assert pico("doctor").err.count("journal") == 0
+
+
+@pytest.mark.parametrize("kind", ["intent", "started", "done"])
+def test_each_kind_of_record_is_taken_from_its_commit(committed: Path, kind: str) -> None:
+    path = committed / ".pico/benches/sim/journal.sqlite"
+    with closing(Journal(path, looking=True)) as journal:
+        before = journal.records()
+    seq = next(r.seq for r in before if r.kind == kind)
+    spoil(path, f"UPDATE records SET data = replace(data, '1', '7'), component = 'x' WHERE seq = {seq}")
+    with closing(Journal(path)) as journal:
+        after = journal.records()
+    was, now = (next(r for r in rows if r.seq == seq) for rows in (before, after))
+    leave: set[str] = {"ended"}  # of the bench's clock, which commits count from the first operation
+    assert (now.key, now.kind, now.component, now.digest) == (was.key, was.kind, was.component, was.digest)
+    assert {k: v for k, v in now.data.items() if k not in leave} == {
+        k: v for k, v in was.data.items() if k not in leave
+    }
+
+
+def test_a_damaged_record_that_no_commit_has_stops_what_moves_and_is_named(lab: Path, pico: Pico) -> None:
+    path = lab / ".pico/benches/sim/journal.sqlite"
+    with closing(Journal(path, looking=True)) as journal:
+        last = journal.runs()[-1].run
+    spoil(path, f"UPDATE records SET data = replace(data, '3', '8') WHERE run = '{last}' AND phase = 0")
+    for words in (("set", "p1", "angle=4", "--yes"), ("undo", "--yes"), ("commit", "-m", "x")):
+        answer = pico(*words)
+        assert answer.code != 0 and last in answer.err and "`pico doctor --journal`" in answer.err, answer.err
+        assert "the bench sim" in answer.err and "internal" not in answer.err
+    would = pico("doctor", "--journal")
+    assert would.code == 2 and last in would.out and "lost" in would.out
+    done: Any = pico("doctor", "--journal", "--yes", "--json").data
+    assert [one["run"] for one in done["lost"]] == [last]
+    assert pico("set", "p1", "angle=4", "--yes").code == 0
+
+
+def test_a_damaged_plan_of_a_run_is_never_undone(committed: Path, pico: Pico) -> None:
+    path = committed / ".pico/benches/sim/journal.sqlite"
+    assert pico("set", "p1", "angle=5", "--yes").code == 0
+    spoil(
+        path, "UPDATE runs SET document = replace(document, '90', '80') WHERE number = (SELECT max(number) FROM runs)"
+    )
+    answer = pico("undo", "--yes")
+    assert answer.code == 1 and "damaged" in answer.err and "`pico doctor --journal`" in answer.err
+
+
+def test_a_journal_that_is_no_database_is_made_of_commits(committed: Path, pico: Pico) -> None:
+    path = committed / ".pico/benches/sim/journal.sqlite"
+    with closing(Journal(path, looking=True)) as journal:
+        runs = [run.run for run in journal.runs() if run.run in journal.moving()]
+    path.write_bytes(b"no database, " * 4000)
+    answer = pico("plan", "e1")
+    assert answer.code == 1 and "`pico doctor --journal`" in answer.err
+    done = pico("doctor", "--journal", "--yes", "--json")
+    assert done.code == 0 and set(done.data["from_commits"]) == set(runs)
+    assert pico("plan", "e1").code == 0 and pico("undo", "--yes").code in (0, 1)
+    with closing(Journal(path, looking=True)) as journal:
+        assert [run.run for run in journal.runs()][: len(runs)] == runs
+
+
+def test_a_journal_of_version_3_is_lifted_and_its_records_count_without_checksums(lab: Path, pico: Pico) -> None:
+    path = lab / ".pico/benches/sim/journal.sqlite"
+    with closing(sqlite3.connect(path)) as db:
+        db.executescript(
+            "ALTER TABLE runs DROP COLUMN checksum; ALTER TABLE records DROP COLUMN checksum; PRAGMA user_version=3;"
+        )
+    assert pico("doctor").code == 0
+    assert pico("undo", "--yes").code == 0 and pico("doctor").code == 0
+    with closing(sqlite3.connect(path)) as db:
+        assert db.execute("PRAGMA user_version").fetchone() == (4,)
+        known = {row[0] is None for row in db.execute("SELECT checksum FROM records")}
+    assert known == {True, False}
+
+
+def test_git_has_nothing_of_it(lab: Path) -> None:
+    said = subprocess.run(["git", "status", "--porcelain"], cwd=lab, capture_output=True, text=True, check=True)
+    assert ".pico" not in said.stdout
