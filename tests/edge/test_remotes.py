@@ -14,6 +14,7 @@ from bench_at import bench_at
 from relaying import TOKEN, point, relayed
 
 from pico.bench.bench import Bench
+from pico.control.gate import Command, Record
 from pico.diagnostics import ExitCode, PicoError
 from pico.edge.network.enrolment import Enrolment, read_enrolment
 from pico.edge.network.kept_gate import KeptGate
@@ -137,7 +138,20 @@ def test_a_damaged_file_of_the_gate_is_said_with_what_to_do(tmp_path: Path) -> N
     (tmp_path / "gate.sqlite").write_text("no database, but a text that is longer than a header of one would be" * 4)
     with pytest.raises(PicoError, match="it is damaged") as told:
         KeptGate(tmp_path / "gate.sqlite")
-    assert "gate.sqlite.broken" in told.value.diagnostics[0].hint
+    assert "gate.sqlite.damaged" in told.value.diagnostics[0].hint
+
+
+def test_a_damaged_record_of_the_gate_is_named_and_lets_nothing_through(tmp_path: Path) -> None:
+    path = tmp_path / "gate.sqlite"
+    gate = KeptGate(path)
+    gate.memory(3)
+    gate.write(Record(Command(4, 1, "k", "d"), "done", "{}"))
+    assert gate.memory(3).fenced == 3
+    gate._db.execute("UPDATE commands SET phase = 'begun'")
+    with pytest.raises(PicoError, match="command 'k' is damaged") as told:
+        gate.memory(3)
+    assert f"`mv {path}" in told.value.diagnostics[0].hint
+    gate.close()
 
 
 def test_a_token_is_kept_for_one_user_and_one_coordinator(monkeypatch: pytest.MonkeyPatch) -> None:

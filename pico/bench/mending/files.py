@@ -45,7 +45,7 @@ def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iter
     if path.is_symlink():
         yield error("symlink", f"{path} is a symbolic link, and PICO would write where it points", hint="delete it")
     elif entry is None:
-        text = f"{path} is no file that PICO keeps there"
+        text = f"{path} is not one of the files that PICO keeps there"
         yield warning("state-unknown", text, hint=f"look at it; `rm {quoted(path)}` if it is not yours")
     elif entry is state_files.JOURNAL:
         if path.name == entry.name:  # what SQLite has beside it is read with it

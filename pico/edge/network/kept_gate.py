@@ -9,17 +9,20 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from pico.base.state_files import GATE
 from pico.control.gate import Command, Memory, Phase, Record
 from pico.diagnostics import PicoError, error
 from pico.disk import refusing, unwritable
+from pico.runs.damage import checksum
 
 KEPT = 64
 """Of so many leases before the last one the commands are kept: the coordinator asks for none of an earlier one."""
+_COLUMNS = "key, token, seq, digest, phase, result"
 _TABLES = """
 CREATE TABLE IF NOT EXISTS fence (one INTEGER PRIMARY KEY CHECK (one = 1), token INTEGER NOT NULL);
 CREATE TABLE IF NOT EXISTS commands (
   key TEXT PRIMARY KEY, token INTEGER NOT NULL, seq INTEGER NOT NULL, digest TEXT NOT NULL, phase TEXT NOT NULL,
-  result TEXT NOT NULL
+  result TEXT NOT NULL, checksum TEXT
 );
 """
 
@@ -35,6 +38,9 @@ class KeptGate:
             self._db.execute("PRAGMA journal_mode=WAL")
             self._db.execute("PRAGMA synchronous=FULL")
             self._db.executescript(_TABLES)
+            self._db.text_factory = lambda data: data.decode("utf-8", "surrogateescape")  # a flipped bit is named below
+            if "checksum" not in {row[1] for row in self._db.execute("PRAGMA table_info(commands)")}:
+                self._db.execute("ALTER TABLE commands ADD COLUMN checksum TEXT")
 
     def memory(self, first: int) -> Memory:
         """Return what is kept; where nothing is, the bench was fenced for `first` before it was enrolled."""
@@ -42,9 +48,12 @@ class KeptGate:
             self._db.execute("INSERT OR IGNORE INTO fence VALUES (1, ?)", (first,))
             self._db.execute("UPDATE fence SET token = ? WHERE token < ?", (first, first))
             (token,) = self._db.execute("SELECT token FROM fence").fetchone()
-            rows = self._db.execute("SELECT key, token, seq, digest, phase, result FROM commands").fetchall()
+            rows = self._db.execute(f"SELECT {_COLUMNS}, checksum FROM commands").fetchall()
         memory = Memory(fenced=token)
-        for key, given, seq, digest, phase, result in rows:
+        for *row, known in rows:
+            if known is not None and known != checksum(*row):
+                raise PicoError(GATE.damaged(self._path, f"the record of the command {row[0]!r} is damaged"))
+            key, given, seq, digest, phase, result = row
             memory = memory.with_record(Record(Command(given, seq, key, digest), _phase(phase), result))
         return memory
 
@@ -63,7 +72,8 @@ class KeptGate:
         row = (command.key, command.token, command.seq, command.digest, record.phase, record.result)
         with self._guarded():
             self._db.execute(f"PRAGMA synchronous={'FULL' if durable else 'NORMAL'}")
-            self._db.execute("INSERT OR REPLACE INTO commands VALUES (?, ?, ?, ?, ?, ?)", row)
+            into = f"INSERT OR REPLACE INTO commands ({_COLUMNS}, checksum) VALUES (?, ?, ?, ?, ?, ?, ?)"
+            self._db.execute(into, (*row, checksum(*row)))
             self._db.execute("PRAGMA synchronous=FULL")
 
     def close(self) -> None:
@@ -77,7 +87,7 @@ class KeptGate:
         except (sqlite3.Error, OSError) as exc:
             what = f"what the edge lets through can't be kept in {self._path}"
             if type(exc) is sqlite3.DatabaseError:  # such as: the file is no database
-                hint = f"move it away: `mv {self._path} {self._path}.broken`; the next lease begins it anew"
+                hint = f"move it away: `mv {self._path} {self._path}.damaged`; the next lease begins it anew"
                 raise PicoError(error("gate", f"{what}: it is damaged ({exc})", hint=hint)) from exc
             why = refusing(self._path.parent) or exc
             raise PicoError(unwritable(self._path, why, what=what, code="gate")) from exc
