@@ -11,6 +11,7 @@ import sqlite3
 import subprocess
 from collections.abc import Callable, Iterator
 from contextlib import closing
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -402,3 +403,28 @@ def test_a_journal_of_version_3_is_lifted_and_its_records_count_without_checksum
 def test_git_has_nothing_of_it(lab: Path) -> None:
     said = subprocess.run(["git", "status", "--porcelain"], cwd=lab, capture_output=True, text=True, check=True)
     assert ".pico" not in said.stdout
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not (find_spec("xarm") and find_spec("ElliptecBus")), reason="the extras xarm and thorlabs")
+def test_light_recipes_searches_and_devices_leave_only_files_of_the_registry(
+    lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PICO_EMULATED_PACE", "10")
+    shutil.copy(ROOT / "examples" / "devices.yaml", lab)
+    (lab / "recipes" / "short.yaml").write_text(
+        "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: short}\nsteps:\n  - set: {p1.angle: 5}\n"
+    )
+    for words in (
+        "apply --fidelity kinematic --auto-approve", "measure cam.image", "measure cam.centroid", "run short --yes",
+        "optimize null p2 cam --yes", "morning --yes --accept", "stop", "undo --yes",
+        "--backend hardware --emulate set p1 angle=4 --yes", "--backend hardware --emulate look",
+    ):  # fmt: skip
+        answer = pico(*words.split())
+        assert "internal" not in answer.err, (words, answer.err)
+    strange = [name for _, name, entry in files_below(lab) if entry is None]
+    git = {p.relative_to(lab).as_posix() for p in (lab / ".git/pico").rglob("*") if p.is_file()}
+    assert strange == [] and [name for name in git if entry_of(name) is None] == []
+    seen = {entry.pattern for _, _, entry in files_below(lab) if entry}
+    assert {"benches/BENCH/recipes/RUN.jsonl", "benches/BENCH/seen.json"} <= seen
+    assert damaged_files(lab, Log.read) == ()
