@@ -55,7 +55,8 @@ def test_with_a_damaged_journal_looking_and_planning_go_on_and_nothing_moves(tmp
     planned = asyncio.run(plan_to(bench, C3))
     with pytest.raises(PicoError, match="damaged") as caught:
         asyncio.run(execute(bench, planned))
-    assert f"mv {path}" in caught.value.diagnostics[0].hint
+    assert str(path) in caught.value.diagnostics[0].summary
+    assert "`pico doctor --journal`" in caught.value.diagnostics[0].hint
     assert not (tmp_path / ".pico/benches/sim" / "world.json").exists()
     path.rename(path.with_suffix(".broken"))
     assert apply(sim(SETUP, tmp_path), C3)[1].outcome == "done"
