@@ -344,7 +344,18 @@ def test_a_command_that_asks_before_it_moves_something_is_offered_for_no_slip() 
     from pico_cli.commands import files
     from pico_cli.names import moves
 
-    harmless = {"bench update", "data", "data gc", "drift", "lease steal", "measure", "morning", "swap", "verify"}
+    harmless = {
+        "bench update",
+        "data",
+        "data gc",
+        "doctor",
+        "drift",
+        "lease steal",
+        "measure",
+        "morning",
+        "swap",
+        "verify",
+    }
     asks = {
         f"{name} {below}".strip()
         for name, path in files().items()

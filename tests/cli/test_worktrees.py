@@ -194,7 +194,7 @@ def test_a_record_that_is_damaged_names_nobody(shel: Path, pico: Pico) -> None:
     for text in ("", "[]", "\0"):  # it may have named another worktree
         lab_place(shel).record.write_text(text)
         refused = at(pico, shel, "apply", "--auto-approve", code=1)
-        assert "bench.json cannot be read" in refused and "`pico git attach`" in refused
+        assert "bench.json cannot be read" in refused and "git attach` in the worktree" in refused
 
 
 def test_a_stop_from_another_worktree_reaches_the_bench(shel: Path, other: Path, pico: Pico) -> None:
