@@ -192,7 +192,7 @@ def test_a_file_of_before_the_checksums_is_read_and_one_of_a_newer_version_is_re
     path.write_text('{"schema": "pico.a/v2"}')
     with pytest.raises(PicoError, match="newer PICO") as refused:
         file.read(path, dict)
-    assert refused.value.diagnostics[0].hint.startswith("update PICO")
+    assert refused.value.diagnostics[0].hint.startswith("upgrade PICO")
 
 
 def test_what_keeps_people_safe_is_never_read_as_nothing(tmp_path: Path) -> None:
