@@ -217,7 +217,7 @@ SPLIT_LOCK = StateFile(
 )  # fmt: skip
 DATA = StateFile(
     "cas/**", "record", "pictures and arrays of runs by their SHA-256, for a lab outside Git", "every measurement",
-    "large data of runs that is in no remote", "`pico data verify` names what is damaged, `pico pull` brings it back",
+    "large data of runs that is in no remote", "`pico data fsck` names what is damaged, `pico pull` brings it back",
     text="folder",
 )  # fmt: skip
 PAGE = StateFile(
@@ -259,7 +259,7 @@ GIT_CACHES = StateFile(
 )  # fmt: skip
 GIT_DATA = StateFile(
     ".git/pico/cas/**", "record", "pictures and arrays of runs by their SHA-256", "every measurement",
-    "large data of runs that is in no remote", "`pico data verify` names what is damaged, `pico pull` brings it back",
+    "large data of runs that is in no remote", "`pico data fsck` names what is damaged, `pico pull` brings it back",
     text="folder",
 )  # fmt: skip
 GIT_LOCK = StateFile(
