@@ -377,9 +377,9 @@ def by_hand(only: str) -> list[Verdict]:
         if len(where) != 1 or texts[where[0]].count(one.right) != 1:
             raise SystemExit(f"`{one.right}` stands in {', '.join(where) or 'no file'}, not once: {one.means}")
         made.append(planted(where[0], texts[where[0]], one.right, one.wrong))
-    files = {name: _test_file(name) for name in sorted({one.tests for one in chosen})}
-    with running(sorted(files.values())) as workers:
-        tests = [[name for name in workers.names if name.startswith(f"{files[one.tests]}::")] for one in chosen]
+    named = {one.tests: _named(one.tests) for one in chosen}
+    with running(sorted({name.partition("::")[0] for name in named.values()})) as workers:
+        tests = [[name for name in workers.names if _is_of(name, named[one.tests])] for one in chosen]
         as_it_is = judged(
             workers, [replace(m, wrong=m.right) for m in made], [(names, SECONDS) for names in tests], texts
         )
@@ -388,11 +388,18 @@ def by_hand(only: str) -> list[Verdict]:
         return judged(workers, made, [(names, SECONDS) for names in tests], texts)
 
 
-def _test_file(name: str) -> str:
+def _named(tests: str) -> str:
+    """Return a test file, or one test of it, by its path from the root of the tree."""
+    name, two_dots, test = tests.partition("::")
     found = sorted((ROOT / "tests").rglob(name))
     if len(found) != 1:
         raise SystemExit(f"there are {len(found)} test files {name}")
-    return found[0].relative_to(ROOT).as_posix()
+    return f"{found[0].relative_to(ROOT).as_posix()}{two_dots}{test}"
+
+
+def _is_of(name: str, tests: str) -> bool:
+    """Return whether a test, with its parameters, is the one that is named, or in the file that is named."""
+    return tests in (name.partition("[")[0], name.partition("::")[0])
 
 
 def main() -> int:

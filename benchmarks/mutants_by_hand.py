@@ -8,15 +8,21 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class ByHand:
-    """What it means, text that stands once under `pico/`, what becomes of it, and the test file that kills it."""
+    """A mutant. The text `right` stands once under `pico/`, in `file` if that is given."""
 
+    # What goes wrong.
     means: str
     right: str
+    # What becomes of it.
     wrong: str
+    # The test file that kills it, or one test of it: `test_x.py::test_y`.
     tests: str
+    file: str = ""
+    # Why that would hurt somebody or something.
+    danger: str = ""
 
 
-BY_HAND: tuple[ByHand, ...] = (
+_SINGLE: tuple[ByHand, ...] = (
     ByHand("a laser that the plan turns on counts as dark",
         'return _read(seen, laser, "emission") is False and not lit', 'return _read(seen, laser, "emission") is False', "test_rules.py"),
     ByHand("a part turned in its place since is picked as planned",
@@ -97,3 +103,114 @@ BY_HAND: tuple[ByHand, ...] = (
     ByHand("a mount of a real bench that reads short of its goal has reached it",
         "if value_distance(kind, value, goal) > max(kind.tolerance, 1e-9):", "if value - goal > max(kind.tolerance, 1e-9):", "test_light_and_inputs.py"),
 )  # fmt: skip
+
+SAFETY_BY_HAND: tuple[ByHand, ...] = (
+    ByHand("a run that only emptied hands is what an undo takes back",
+        'own = [run for run in runs if _cause(memory, run) != "recover"]', "own = runs", "test_undo_choice.py::test_the_last_run_that_changed_the_bench_or_was_cut_short_is_taken_back",
+        "pico/bench/undo/choice.py", "`pico undo` puts parts back into grippers, and leaves the run that was meant as it is."),
+    ByHand("the end of an arming is compared as text",
+        "return clock.seconds_between(arming.ends, now) >= 0", "return now >= arming.ends", "test_who_may_arm.py::test_an_arming_ends_at_a_time_whatever_time_zone_it_names",
+        "pico/policy/arming.py", "An arming that ends at 18:00+02:00 lets the laser emit until 18:00 UTC, two hours longer."),
+    ByHand("a shutter that opens after it was closed counts as closed",
+        "return all(any(before[c] >> o & 1 for c in done) for o in waiting)",
+        "return all(any(before[o] >> c & 1 for c in done) for o in waiting)", "test_open_beams.py::test_an_opening_that_is_closed_again_before_leaves_the_beam_closed",
+        "pico/policy/beams.py", "An arm or a person works in a beam that the rules of the lab take for closed."),
+    ByHand("the audit of another setting of the mirrors is taken from memory",
+        "json.dumps(as_json([lit.poses, lit.values, lit.lasers]), sort_keys=True)",
+        "json.dumps(as_json([lit.poses, lit.lasers]), sort_keys=True)", "test_light_of_plans.py::test_a_verdict_counts_for_the_settings_poses_and_lasers_that_it_is_of",
+        "pico/policy/audit.py", "A mirror is turned so that the beam leaves the table, and the verdict is that of before."),
+    ByHand("a plan for another bench is refused only if its fidelity differs, too",
+        "if plan.backend != able.name:", "if plan.backend != able.name and plan.fidelity != able.fidelity:", "test_checks.py::test_a_plan_is_for_one_backend_with_its_robots_and_primitives",
+        "pico/policy/capability.py", "A plan that was made for the simulated table moves the real one."),
+    ByHand("a part that lies on its side or is held counts as where the plan starts from",
+        'if name in setup.lab.inventory and (part is None or part.presence != "seen"):',
+        'if name in setup.lab.inventory and (part is None or part.presence == "missing"):', "test_start_conditions.py::test_a_part_of_the_plan_must_be_seen",
+        "pico/policy/freshness.py", "An arm works beside a mount that has fallen over since the plan was made."),
+    ByHand("an operation that ends while a longer one goes on takes dose away",
+        "ends = max(now, op.start + op.seconds)", "ends = op.start + op.seconds", "test_sample_doses.py::test_an_operation_that_ends_while_a_longer_one_goes_on_takes_nothing_away",
+        "pico/policy/dose.py", "A plan with parallel operations burns a sample, for negative seconds are added up."),
+    ByHand("an error among what a judge tells refuses no plan",
+        "        if judgment.refusals:\n            raise PicoError(judgment.refusals, judgment.exit_code)",
+        "        if judgment.denials:\n            raise PicoError(judgment.denials, judgment.exit_code)", "test_judges.py::test_a_plan_is_refused_by_the_one_judge_who_finds_fault_with_it",
+        "pico/policy/judging/judges.py", "The edge runs a plan though beam audit, dose or licenses refuse it."),
+    ByHand("a shutter on the table opens only what no laser of the plan does",
+        "apart = any(name not in sources for name in touched)", "apart = touched.isdisjoint(sources)", "test_light_let_out.py::test_a_shutter_on_the_table_lets_out_others_than_the_laser_that_is_set_beside_it",
+        "pico/planning/checks/emission.py", "A plan that sets one laser and opens a shutter lets out a second one without a license."),
+    ByHand("a laser that the cameras do not see emits nothing",
+        'if part is None or part.presence == "missing":\n        return False', 'if part is None or part.presence != "seen":\n        return False', "test_light_let_out.py::test_a_laser_is_dark_only_if_it_is_gone_or_read_back_off_or_closed",
+        "pico/planning/checks/emission.py", "A laser that is toppled or hidden by an arm emits without a license, and is not shut."),
+    ByHand("another session of the same person has the lease, too",
+        "if row.grant and row.grant.holder == asker and now <= row.grant.expires:",
+        "if row.grant and row.grant.holder.who == asker.who and now <= row.grant.expires:", "test_lease_rules.py::test_who_asks_gets_it_where_it_is_free_and_nobody_waits_before",
+        "pico/control/leases.py", "Two terminals or scripts of one person move one bench at the same time."),
+    ByHand("an edge goes on under a lease that the coordinator took back",
+        "asked + left * RATE - REACHES) if left > 0 else -math.inf)", "asked + left * RATE - REACHES) if left > 0 else gate.deadline)", "test_control_rules.py::test_a_lease_holds_from_when_the_edge_asked_and_a_little_shorter",
+        "pico/control/gate.py", "After a release or a takeover commands of the former holder still move the bench."),
+    ByHand("a command whose end is unknown is sent again",
+        'if r.state == "waiting")[:WINDOW]', "if r.state in OPEN)[:WINDOW]", "test_control_rules.py::test_only_what_waits_is_sent_to_the_edge",
+        "pico/control/commands.py", "What began and may have been done is asked for a second time before anybody has looked."),
+    ByHand("who asks most often is forgotten first",
+        "        self._buckets.pop(who, None)\n", "", "test_rates.py::test_so_many_buckets_are_kept_and_who_asked_longest_ago_is_forgotten",
+        "pico/server/guard/rates.py", "Who guesses tokens gets a full bucket again as soon as enough others have asked."),
+    ByHand("who stops to wait for an operation cancels it half-way",
+        "return await asyncio.shield(self._under_way[key])", "return await self._under_way[key]", "test_custody.py::test_who_stops_waiting_for_an_operation_leaves_it_going_on_and_hears_of_its_end_later",
+        "pico/edge/local/custody.py", "A client whose link breaks leaves an arm in mid-air, and no end is written down."),
+    ByHand("the light since the last operation is not counted",
+        "return read(own.place).until(own.setup, seen).doses(own.setup)", "return read(own.place).doses(own.setup)", "test_dose.py::test_what_would_exceed_its_budget_is_refused_with_the_numbers_and_it_can_be_darkened",
+        "pico/edge/local/licensing.py", "A sample in an open beam may be given its whole budget again after hours of light."),
+    ByHand("a run that is canceled while it is judged begins all the same",
+        "self._custody.halted |= self.is_cancelled(run)", "pass", "test_custody.py::test_a_run_that_is_canceled_while_it_is_judged_moves_nothing",
+        "pico/edge/local/runs.py", "A person presses stop in the second before the arm moves, and it moves."),
+    ByHand("what kept an unattended run from being left in order is not said",
+        "self._wrong(f\"the bench is not left as {terms.recipe.partition('@')[0]} states\", exc)", "pass", "test_alone_rules.py::test_a_bench_that_cannot_be_had_is_told_as_not_left_so",
+        "pico/edge/unattended.py", "A laser stays open overnight, and the report says that the bench was left as stated."),
+    ByHand("a laser that could not be shut is taken for shut",
+        "            if not await self._done(operation):\n                return False\n            self._told",
+        "            await self._done(operation)\n            self._told", "test_shutting.py::test_an_arming_that_is_over_is_kept_until_its_laser_is_shut",
+        "pico/edge/shutting.py", "The shutter jams once, the end of the arming is forgotten, and nothing tries to close it again."),
+    ByHand("an arming without a seal counts",
+        'if seal is not None and seal.read_text(encoding="ascii").strip() != _digest(data):',
+        'if seal is not None and seal.exists() and seal.read_text(encoding="ascii").strip() != _digest(data):', "test_light_kept_in.py::test_what_the_bench_did_not_write_counts_only_where_nothing_tells",
+        "pico/edge/armings.py", "A commit that brings an `armed/laser.json` arms the laser of whoever checks it out."),
+    ByHand("an undo goes back to before the run that came last",
+        "state_before(setup, memory, found.runs[found.at :], {component", "state_before(setup, memory, found.runs, {component", "test_resuming.py::test_undo_goes_back_to_before_the_run_and_not_to_before_hands_were_emptied_after_it",
+        "pico/bench/recovery.py", "A part goes to where a later recovery found it, in a hand or half-way, not to where it stood."),
+    ByHand("the reply of another mount on the line counts",
+        '        if packet.address != self._at:\n            return None\n        if packet.command == "PO":', '        if packet.command == "PO":', "test_stopping_short.py::test_a_mount_that_comes_to_rest_beside_its_goal_has_missed_it_on_either_side",
+        "pico/drivers/elliptec.py", "Of two mounts on one line one is taken for turned when the other one is; the beam goes elsewhere."),
+    ByHand("a stop closes the shutters before what is under way has ended",
+        "        await self._halt_all()\n        await self.idle()\n        await self._shut()",
+        "        await self._halt_all()\n        await self._shut()\n        await self.idle()", "test_light_and_inputs.py::test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone",
+        "pico/backends/hardware/session.py", "An operation that is just about to open a shutter opens it after the stop, and it stays open."),
+    ByHand("of two limits of its speed an arm keeps to the higher one",
+        "slow = max(1.0, fastest / min(most, speed or most))", "slow = max(1.0, fastest / max(most, speed or most))", "test_slow_tools.py::test_an_arm_that_is_tried_out_goes_no_faster_than_asked",
+        "pico/backends/hardware/session.py", "An arm whose driver was never tried goes at full speed beside the person who tries it."),
+    ByHand("a jog from beyond a range leaps into the range",
+        "return min(max(there, min(self.range[0], here)), max(self.range[1], here))", "return min(max(there, self.range[0]), self.range[1])", "test_jog_steps.py::test_a_step_ends_within_the_range_and_never_leads_away_from_it",
+        "pico/teleop/steps.py", "One press of a key turns a mount that was left out of its range by any angle, the beam with it."),
+    ByHand("a frame that says no time authorizes a step",
+        "if not abs(now - frame.seen) <= SILENCE:", "if abs(now - frame.seen) > SILENCE:", "test_deadman_table.py::test_a_frame_counts_in_time_of_a_press_that_goes_on_or_is_fresh",
+        "pico/teleop/deadman.py", "A client whose clock is NaN steers an arm with frames of any age."),
+    ByHand("an arm that withdraws may touch what it has just put down",
+        'pose = task.goal if segment.name in ("release", "retreat") else task.start',
+        'pose = task.goal if segment.name == "release" else task.start', "test_recheck.py::test_the_part_itself_is_in_the_way_where_it_stands_while_no_hand_has_it",
+        "pico/motion/recheck.py", "The second check looks for the part where it stood before; the hand knocks it over."),
+    ByHand("a shutter that was closed to measure is opened after an interruption",
+        'if back and not measures.isdisjoint(op.after) and (op.makes_safe or op.arguments["tunable"] != "shutter"):',
+        "if back and not measures.isdisjoint(op.after):", "test_executor.py::test_interrupted_no_shutter_opens_and_what_the_bench_refuses_is_not_asked_again",
+        "pico/execution/graph.py", "Somebody stops a run to reach into the setup, and the beam opens."),
+    ByHand("a bench is where an earlier PICO had it, not where it was attached since",
+        "if (there := known.get(name, known.get(SHARED))) is not None:", "if (there := known.get(SHARED, known.get(name))) is not None:", "test_record_of_benches.py::test_a_bench_is_where_its_own_entry_says_else_where_all_were_else_where_it_was_used",
+        "pico/places/record.py", "Two worktrees have one bench: state, lock and journal of another one are taken for its own."),
+    ByHand("a damaged object stays when its data are kept anew",
+        "                self._place(fresh, self.path(sha256))", "                if not self.has(sha256):\n                    self._place(fresh, self.path(sha256))", "test_intact.py::test_the_age_of_an_object_is_since_it_was_last_put",
+        "pico/content/store.py", "Data that are saved again are lost: a damaged or half-expired copy is taken for them."),
+    ByHand("the offset of a wired axis is taken in the unit of the lab",
+        "return (_converted(value, unit, self.unit) - self.offset) / self.scale",
+        "return _converted((value - self.offset) / self.scale, unit, self.unit)", "test_wired_numbers.py::test_scale_and_offset_are_in_the_unit_of_the_wiring_and_lead_there_and_back",
+        "pico/model/wiring.py", "A mirror with an offset of 2 deg goes 2 mrad beside its place, or 100 mrad: the beam leaves the table."),
+)  # fmt: skip
+"""Errors in what decides about light, motion and which bench is meant, written by somebody who did not know the tests.
+Each is killed by a quick test of the package that it is in."""
+
+BY_HAND: tuple[ByHand, ...] = (*_SINGLE, *SAFETY_BY_HAND)

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.append(str(ROOT / "benchmarks"))
 
-from mutants_by_hand import BY_HAND  # noqa: E402
+from mutants_by_hand import BY_HAND, SAFETY_BY_HAND  # noqa: E402
 from mutants_safety import SAFETY, accepted, belongs, chosen, key_of  # noqa: E402
 from mutating import is_python, mutants, planted  # noqa: E402
 
@@ -57,7 +57,12 @@ def test_what_was_made_by_hand_has_its_place() -> None:
         (file,) = [file for file, text in texts.items() if one.right in text]
         mutant = planted(str(file), texts[file], one.right, one.wrong)
         assert texts[file].count(one.right) == 1 and is_python(mutant.apply(texts[file])), one.means
-        assert len(list((ROOT / "tests").rglob(one.tests))) == 1, one.tests
+        name, _, test = one.tests.partition("::")
+        (tests,) = (ROOT / "tests").rglob(name)
+        assert not test or f"\ndef {test}(" in tests.read_text(), one.tests
+        if one in SAFETY_BY_HAND:
+            package = Path(one.file).parts[1]
+            assert file == ROOT / one.file and one.danger and test and tests.is_relative_to(ROOT / "tests" / package)
 
 
 def test_the_safety_group_has_its_modules_tests_and_functions() -> None:

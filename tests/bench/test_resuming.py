@@ -14,6 +14,7 @@ from pico.diagnostics import PicoError
 from pico.history.examples.example import make_example
 from pico.model.plan import plan_from_json
 from pico.model.pose import Pose
+from pico.model.trace.event import Event
 from pico.runs.journal import Journal
 
 
@@ -134,6 +135,25 @@ def test_undo_takes_back_what_the_run_moved_and_nothing_else(bench: Bench) -> No
     again = bench.recovery.undo_plan()
     assert bench.apply(again).outcome == "done"
     assert bench.observe().components["lx_125"].pose == Pose(395, 420, 0)
+
+
+def test_undo_goes_back_to_before_the_run_and_not_to_before_hands_were_emptied_after_it(bench: Bench) -> None:
+    before = {name: part.pose for name, part in bench.observe().components.items()}
+    placed = set[str]()
+
+    def with_a_second_part_in_hand(event: Event) -> bool:
+        if event.kind == "operation_done" and "error_mm" in event.data:
+            placed.add(event.component)
+        return bool(placed) and event.data.get("phase") == "transit"
+
+    cut = ended_when(bench, bench.plan("e1"), with_a_second_part_in_hand, at_once=True)
+    assert cut.outcome == "interrupted" and cut.held
+    assert bench.apply(bench.recovery.recover_plan()).outcome == "done"
+    plan = bench.recovery.undo_plan()
+    assert plan.target.of == cut.run
+    assert bench.apply(plan).outcome == "done"
+    seen = bench.observe().components
+    assert placed and {name: seen[name].pose for name in placed} == {name: before[name] for name in placed}
 
 
 def put(bench: Bench, part: str, pose: Pose) -> Pose:

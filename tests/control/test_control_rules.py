@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from pico.control import commands as commanding
 from pico.control import gate as gating
 from pico.control import leases as leasing
-from pico.control.commands import Commands
+from pico.control.commands import Commands, Row, State
 from pico.control.gate import Command, Gate, Memory, Record
 from pico.control.leases import TTL, Asker, Lease
 
@@ -137,6 +137,17 @@ def test_commands_keep_their_first_content_and_number() -> None:
     with pytest.raises(ValueError, match="another command 1"):
         commanding.submitted(commands, replace(FIRST, key="run/9/1"))
     assert not commands.whole(1, 2) and commands.whole(1, 1)
+
+
+@pytest.mark.parametrize("state", ["waiting", "unknown", "done", "failed", "withdrawn"])
+def test_only_what_waits_is_sent_to_the_edge(state: State) -> None:
+    """What began, and whose end is unknown, is looked at first, and never asked for a second time by itself."""
+    commands = Commands({FIRST.key: Row(FIRST, state)})
+    assert commands.due(1) == ((FIRST,) if state == "waiting" else ()) and commands.due(2) == ()
+    many = [Command(1, n, f"run/{n}/1", "p1=90") for n in (3, 1, 6, 2, 5, 4)]
+    all_of = Commands({c.key: Row(c, state if c.seq == 1 else "waiting") for c in many})
+    sent = [c.seq for c in all_of.due(1)]
+    assert sent == ([1, 2, 3, 4] if state == "waiting" else [2, 3, 4, 5])
 
 
 def test_an_end_stays_and_an_unknown_one_takes_a_name() -> None:

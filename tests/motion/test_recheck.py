@@ -120,6 +120,15 @@ def test_what_stands_too_near_to_the_way_is_found_whatever_the_first_check_said(
         assert found.help
 
 
+@pytest.mark.parametrize(("segment", "stands_at"), [("approach", START), ("descend", START), ("retreat", GOAL)])
+def test_the_part_itself_is_in_the_way_where_it_stands_while_no_hand_has_it(segment, stands_at):
+    for place in (START, GOAL):
+        within = still(segment, ik(ARM, place.x, place.y, 20, 0)[0], opening=0.0)
+        found = Recheck(SETUP, "arm1").check(within, Task("a", PART, START, GOAL, 90), {}, {})
+        assert (found is not None) is (place == stands_at), (segment, place)
+        assert found is None or (found.obstacle, found.segment) == ("a", segment)
+
+
 def test_keep_out_zones_other_arms_and_tables_are_looked_at():
     zone = KeepOut(area=Box2(x=(560, 700), y=(350, 500)), z=(200, 400))
     setup = bench(keep_out={"lamp": zone}, robots={"arm1": ARM, "arm2": Robot(mount=Mount(x=480, y=140, yaw=90))})

@@ -239,6 +239,21 @@ def test_the_laser_of_the_bench_is_judged_by_its_light() -> None:
     require("beams", SETUP, plan(OPEN), observed(laser={"power": 0.1}))
 
 
+def test_a_verdict_counts_for_the_settings_poses_and_lasers_that_it_is_of() -> None:
+    """Nothing but the power, a pose or the lasers differs between two benches that are judged one after the other."""
+    poses = {name: pose for name, pose in POSES.items() if name != "cam"}
+    away = Lit(poses, {"laser": {**LIT, "power": 4.0}}, ("laser",))
+    others = (
+        replace(away, values={"laser": {**LIT, "power": 0.1}}), replace(away, poses=POSES), replace(away, lasers=()),
+    )  # fmt: skip
+    first = audit.judge(SETUP, away)
+    assert [f.kind for f in first.findings] == ["end"] and audit.judge(SETUP, replace(away)) is first
+    for one in others:
+        assert "leaves the table" not in str(audit.judge(SETUP, one).findings), one
+    assert audit.judge(SETUP, away) is first, "what is the same is traced once"
+    assert len({audit.audit_key(SETUP, one) for one in (away, *others)}) == 4
+
+
 # what is searched
 
 

@@ -112,6 +112,14 @@ def test_operations_add_up_in_the_order_of_their_starts_with_the_pauses_between_
     assert "11 mJ more, in 5.5 s" in dose.refused(SETUP, dark, [one()], together)[0].summary
 
 
+@pytest.mark.parametrize("short", [0.5, 1.0, 3.0])
+def test_an_operation_that_ends_while_a_longer_one_goes_on_takes_nothing_away(short: float) -> None:
+    seen = observed(laser={"power": 2.0})
+    beside = timed([(OPENED, 0.0, 6.0), (ELSE, 1.0, short)])
+    for order in (beside, beside[::-1]):
+        assert "12 mJ more, in 6 s" in dose.refused(SETUP, seen, [one()], order)[0].summary
+
+
 def test_what_only_darkens_is_never_refused_and_what_brightens_on_the_way_is() -> None:
     seen = observed(laser=ON | {"power": 2.0})
     spent = [one(9.9, dose.powers(SETUP, seen)["holder"])]

@@ -132,6 +132,18 @@ def test_an_arming_counts_from_its_beginning_to_its_end_on_its_bench_while_its_p
         assert (licence.laser_class, licence.by, licence.ends, licence.unattended) == (of, by, one.ends, None)
 
 
+@pytest.mark.parametrize("minutes", [-1, 0, 1])
+@pytest.mark.parametrize("zone", ["+02:00", "-05:00", "Z"])
+def test_an_arming_ends_at_a_time_whatever_time_zone_it_names(minutes: int, zone: str) -> None:
+    """As text 14:00+02:00 is later than 12:30Z."""
+    ends = NOON.astimezone(datetime.fromisoformat(f"2026-11-24T12:00:00{zone}").tzinfo).isoformat()
+    one = replace(given(-1.0), ends=ends)
+    now = at(minutes / 60)
+    assert arming.at_its_end(one, now) is (minutes >= 0)
+    assert arming.in_force(SETUP, one, "sim", now) is (minutes < 0)
+    assert bool(arming.refusal(SETUP, one, now)) is (minutes >= 0)
+
+
 def test_a_role_that_was_taken_away_ends_an_arming_but_not_one_whose_hours_were_shortened() -> None:
     one = given(0.0, 8.0)
     assert not arming.over(SETUP, one, at(1))

@@ -195,6 +195,15 @@ def test_a_shutter_on_the_table_lets_out_whatever_may_shine() -> None:
     assert let_out(SETUP, seen, [BY_HAND]) == {"laser": "2", "bare": "3R"}
 
 
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_shutter_on_the_table_lets_out_others_than_the_laser_that_is_set_beside_it(order: int) -> None:
+    seen = observed(laser={"shutter": "open", "power": 0.8}, second={**LIT, "power": 50.0}, without=("bare",))
+    both = [set_to("laser", "power", 0.9, "p"), set_to("gate", "shutter", "open", "g")][::order]
+    assert let_out(SETUP, seen, both) == {"laser": "2", "second": "3B"}
+    one = search({"laser.power": (0.1, 0.9), "gate.shutter": None})
+    assert let_out(SETUP, seen, [one]) == {"laser": "2", "second": "3B"}
+
+
 def test_a_laser_that_is_shut_while_a_shutter_is_carried_stays_dark_only_if_nothing_opens_it() -> None:
     seen = observed(laser={"shutter": "open", "power": 50.0})
     close = set_to("laser", "shutter", "closed", "c")
