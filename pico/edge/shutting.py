@@ -74,15 +74,14 @@ class Shutting:
         self._told: tuple[Diagnostic, ...] = ()
 
     async def shut_over(self, seen: Observation | None) -> None:
-        """Shut the lasers whose arming is over, and of what is `seen` those that shine without one; one that can't be
-        is tried again, by whoever has the bench next. Who takes the bench also brings about the end state of an
-        unattended run that is due."""
+        """Shut the lasers whose arming is over, and of what is `seen` those that shine without one. One that can't be
+        shut keeps no other one open; whoever has the bench next tries it again. Who takes the bench also brings about
+        the end state of an unattended run that is due."""
         edge = self._edge
         async with self._one_at_a_time:
             bare = emission.unlicensed(edge.setup, seen) if seen is not None else {}
             for laser, why in (bare | emission.over(edge.setup, edge.place, edge.now())).items():
-                if not await self._shut(laser, why):
-                    return
+                await self._shut(laser, why)
             if seen is not None and edge.alone.due():
                 await self._end()
 
@@ -110,15 +109,14 @@ class Shutting:
         told, self._told = self._told, ()
         return told
 
-    async def _shut(self, laser: str, why: str) -> bool:
+    async def _shut(self, laser: str, why: str) -> None:
         edge = self._edge
         operation = emission.shutting(edge.setup, await edge.observe(), laser, why)
         if operation is not None:
             if not await self._done(operation):
-                return False
+                return
             self._told = (*self._told, emission.told(laser, why))
         forget(edge.place, laser)
-        return True
 
     async def _done(self, operation: Operation) -> bool:
         """Have an operation done, in the run under way or in one of its own; return whether it was."""

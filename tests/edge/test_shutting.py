@@ -101,3 +101,13 @@ def test_what_is_shut_at_once_is_shut_whatever_arms_it_and_what_could_not_be_is_
     wrong = asyncio.run(Shutting(edge).shut(("laser", "second", "bare"), "it smokes"))  # type: ignore[arg-type]
     assert [(one.severity, one.address) for one in wrong] == [("error", "laser")]
     assert edge.asked == ["laser.shutter closed", "second.shutter closed"] and kept(edge) == ["laser"]
+
+
+@pytest.mark.parametrize("jammed", ["failed", "unknown"])
+def test_a_laser_that_cannot_be_shut_keeps_no_other_one_open(tmp_path: Path, jammed: str) -> None:
+    edge = Edge(tmp_path, EVENING, jammed, laser=LIT, second={**LIT, "power": 50.0}, bare={"emission": False})
+    for laser in ("laser", "second"):
+        armings.keep(edge.place, given(laser=laser))
+    told = shut(edge).told()
+    assert edge.asked == ["laser.shutter closed", "second.shutter closed"] and kept(edge) == ["laser"]
+    assert [one.address for one in told] == ["second"]

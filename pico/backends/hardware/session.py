@@ -395,6 +395,7 @@ class HardwareSession:
     async def _set(self, operation: Operation, key: str) -> Mapping[str, Any]:
         checks.standing_pose(await self._seen(), operation.component)
         self._require_lease()
+        self._require_running()  # a stop may have come while cameras looked: it shuts what lets light out only once
         return await driven(self._setup, self._bench, operation, self._pause)
 
     def _tell(self, kind: EventKind, operation: Operation, key: str, data: Mapping[str, Any]) -> None:

@@ -475,6 +475,27 @@ def test_inputs_are_watched_while_light_is_let_out_and_not_after(monkeypatch: py
     assert before == after >= 1
 
 
+def test_light_is_not_let_out_by_what_waited_while_a_stop_came() -> None:
+    one, devices = session()
+    looks, stops = one._seen, list[asyncio.Task[Any]]()
+
+    async def stopped_meanwhile() -> Any:
+        stops.append(asyncio.create_task(one.stop()))  # it ends once this operation has ended
+        await asyncio.sleep(0)
+        return await looks()
+
+    one._seen = stopped_meanwhile  # type: ignore[method-assign]
+
+    async def go() -> Any:
+        result = await one.execute(set_to("laser", "emission", True), "run/op1/1", lambda before: None)
+        await asyncio.gather(*stops)
+        return result
+
+    result = asyncio.run(asyncio.wait_for(go(), 30))
+    assert result.outcome != "done" and result.error is not None
+    assert True not in devices["laser.emission"].told
+
+
 def test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone() -> None:
     kinds = SETUP.type_of("cam").tunables
     cap = Tunable(datatype="choice", choices=("open", "closed"), mover="electronics")
