@@ -71,8 +71,8 @@ class Mornings:
             longest = next((q for q in reversed(quantities) if len(q.shots) > 1), None)
             if longest is None:
                 break
-            gone = {shot.key for shot in longest.shots}
-            quantities = tuple(q for q in quantities if not q.tunable or gone.isdisjoint(s.key for s in q.shots))
+            keys = {shot.key for shot in longest.shots}
+            quantities = tuple(q for q in quantities if not q.tunable or keys.isdisjoint(s.key for s in q.shots))
             lacks = (*lacks, f"{longest.name} would be read, were a morning longer than {LONGEST:.0f} s")
             found = self._ahead(seen, quantities)
         plan, shots, dark = found

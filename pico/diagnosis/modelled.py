@@ -49,6 +49,11 @@ class Modelled:
             self._values[key] = math.nan if found is None else found.value
         return self._values[key]
 
+    @property
+    def asked(self) -> int:
+        """How many values of quantities were asked of the ray model."""
+        return len(self._values)
+
     def only(self, numbers: Sequence[int]) -> Modelled:
         """Return the same for some of the quantities, with what was asked of these."""
         return Modelled(self.nominal, tuple(self.wanted[n] for n in numbers), self.lowest[numbers], self._values)

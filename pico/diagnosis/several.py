@@ -31,9 +31,9 @@ RIVALS = 8
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, COMPARED = 40, 70
-"""After how many fits by the whole model the search ends, and after how many alternatives are compared no more but two
-to each cause."""
+SEARCHED, COMPARED = 120, 180
+"""How often all quantities are asked of the ray model before the search ends, and before no more alternatives to the
+causes are compared but those that need no light traced."""
 MISFIT = 4.0
 """Standard deviations from which what is left of a change calls for another cause."""
 
@@ -46,7 +46,15 @@ class Search:
     model: Modelled
     pool: dict[tuple[int, ...], Explanation] = field(default_factory=dict)
     _tried: set[tuple[tuple[int, tuple[int, ...]], ...]] = field(default_factory=set)
-    _fits: int = 0
+    _first: int = 0
+
+    def __post_init__(self) -> None:
+        self._first = self.model.asked
+
+    @property
+    def _asked(self) -> float:
+        """How often all quantities were asked of the ray model."""
+        return (self.model.asked - self._first) / len(self.what.d)
 
     def best(self) -> Explanation:
         """Return the likeliest explanation: without causes where nothing unusual is the likeliest."""
@@ -55,7 +63,7 @@ class Search:
         for _ in range(STARTS):
             first = max(self.pool.values(), key=lambda one: one.odds)
             near = [one for one in self.pool.values() if one.key not in done and one.odds > first.odds - NEIGHBOR]
-            if not near or self._fits > SEARCHED:
+            if not near or self._asked > SEARCHED:
                 break
             start = max(near, key=lambda one: one.odds)
             done.add(start.key)
@@ -70,10 +78,10 @@ class Search:
             rest = best.without(number)
             likely = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
             likely = [one for one in likely if one.odds > likely[0].odds - CLOSE - UNSURE]
-            plain = [one for one in likely if self._plain(one.numbers[-1])]
-            traced = [one for one in likely if one not in plain][: RIVALS if self._fits < COMPARED else 2]
-            for one in [*plain, *traced]:
-                self._fit(one, best.odds)
+            traced = [one for one in likely if not self._plain(one.numbers[-1])][:RIVALS]
+            for one in (one for one in likely if one in traced or self._plain(one.numbers[-1])):
+                if one not in traced or self._asked < COMPARED:
+                    self._fit(one, best.odds)
         others = [one for one in self.pool.values() if one.key != best.key and one.odds > best.odds - CLOSE]
         return best, *sorted(others, key=lambda one: -one.odds)
 
@@ -88,7 +96,6 @@ class Search:
         known = self.pool.get(one.key)
         if known is None or tried not in self._tried:
             self._tried.add(tried)
-            self._fits += 1
             found = fitted(self.what, self.model, one, least)
             if known is None or found.odds > known.odds:
                 self.pool[one.key] = known = found
@@ -102,7 +109,7 @@ class Search:
     def _grown(self, beam: Sequence[Explanation]) -> None:
         """Fit explanations that have the causes of some and more, as long as that makes them likelier."""
         best, patient = max(beam, key=lambda one: one.odds), True
-        while beam and len(beam[0].numbers) < MOST:
+        while beam and len(beam[0].numbers) < MOST and self._asked < SEARCHED:
             wider, fits = self._likely([one for each in beam for one in self._wider(each)]), list[Explanation]()
             for one in wider:
                 fits.append(self._fit(one, max((f.odds for f in fits), default=-math.inf)))
