@@ -31,9 +31,9 @@ RIVALS = 8
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, COMPARED = 120, 180
-"""How often all quantities are asked of the ray model before the search ends, and before no more alternatives to the
-causes are compared but those that need no light traced."""
+SEARCHED, FURTHER, COMPARED = 120, 320, 180
+"""How often all quantities are asked of the ray model before the search ends; if so far it leaves something; and before
+no more alternatives to the causes are compared but those that need no light traced."""
 MISFIT = 4.0
 """Standard deviations from which what is left of a change calls for another cause."""
 
@@ -63,7 +63,7 @@ class Search:
         for _ in range(STARTS):
             first = max(self.pool.values(), key=lambda one: one.odds)
             near = [one for one in self.pool.values() if one.key not in done and one.odds > first.odds - NEIGHBOR]
-            if not near or self._asked > SEARCHED:
+            if not near or self._spent(first):
                 break
             start = max(near, key=lambda one: one.odds)
             done.add(start.key)
@@ -109,7 +109,7 @@ class Search:
     def _grown(self, beam: Sequence[Explanation]) -> None:
         """Fit explanations that have the causes of some and more, as long as that makes them likelier."""
         best, patient = max(beam, key=lambda one: one.odds), True
-        while beam and len(beam[0].numbers) < MOST and self._asked < SEARCHED:
+        while beam and len(beam[0].numbers) < MOST and not self._spent(best):
             wider, fits = self._likely([one for each in beam for one in self._wider(each)]), list[Explanation]()
             for one in wider:
                 fits.append(self._fit(one, max((f.odds for f in fits), default=-math.inf)))
@@ -120,6 +120,10 @@ class Search:
                 break
             else:
                 patient = False
+
+    def _spent(self, best: Explanation) -> bool:
+        """Return whether the ray model was asked as often as the search may."""
+        return self._asked > (FURTHER if self._misses(best) else SEARCHED)
 
     def _misses(self, one: Explanation) -> bool:
         return bool((np.abs(self.what.unexplained(one)) > MISFIT).any())
