@@ -20,7 +20,7 @@ import numpy as np
 
 from pico.diagnosis.modelled import Modelled
 from pico.diagnosis.responses import Response
-from pico.diagnosis.weighing import Weighed, normal, one_sided, share_of
+from pico.diagnosis.weighing import Weighed, normal, one_sided, prior_at, share_of
 
 ROUNDS = 7
 """How often all causes together are modelled anew, at most."""
@@ -193,7 +193,7 @@ def _at(what: Changed, one: Explanation, sizes: Sequence[Any], beside: Any) -> E
     """Return an explanation at other sizes, by what each cause does alone."""
     responses = [what.responses[n] for n in one.numbers]
     found = tuple(
-        replace(f, size=z, moved=_known(r.at(z)), slope=_known(r.slope_at(z)))
+        replace(f, size=z, moved=_known(r.at(z)), slope=_known(r.slope_at(z)), prior=prior_at(r.cause, z))
         for f, r, z in zip(one.found, responses, sizes, strict=True)
     )
     return replace(one, found=found, beside=beside)

@@ -12,11 +12,7 @@ import numpy as np
 
 from pico.diagnosis.causes import Cause
 from pico.diagnosis.explanations import Changed, Explanation
-from pico.diagnosis.several import CLOSE
 from pico.diagnosis.weighing import Weighed
-
-LEAST = 1e-3
-"""The least probability of a suspect that is told."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +60,7 @@ def _group(what: Changed, place: Mapping[int, Sequence[tuple[float, Weighed]]]) 
     told = []
     for n in sorted(odds, key=lambda n: -odds[n]):
         share = float(np.exp(odds[n] - whole))
-        if share < LEAST:
-            continue
-        near = {causes[m].part for m in odds if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part}
+        near = {causes[m].part for m in odds if causes[m].part != causes[n].part}
         _, found = max(place[n], key=lambda pair: pair[0])
         told.append(suspect(causes[n], found, share, tuple(sorted(near, key=order.index))))
     total = sum(s.probability for s in told)

@@ -7,6 +7,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
+from typing import Any
 
 import numpy as np
 
@@ -18,12 +20,14 @@ MOST = 6
 """Causes that are looked for, at most."""
 BESIDE = 3
 """How many explanations are followed at a time."""
-TRIED = 3
+TRIED = 4
 """How many explanations with one cause more are fitted by the whole model, the likeliest."""
 BETTER = 0.5
 """By how much the logarithm of the odds must grow for one explanation to replace another."""
 CLOSE = 3.0
 """Up to which difference of the logarithm of the odds another explanation is as good as the best."""
+RARER, LEFT = 10.0, 4.0
+"""Up to which difference of it one of as many causes is, if it leaves of all changes no more than so many variances."""
 UNSURE = 4.0
 """By how much less likely an explanation may look before it is fitted by the whole model."""
 RIVALS = 8
@@ -31,9 +35,11 @@ RIVALS = 8
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, FURTHER, COMPARED = 120, 320, 180
-"""How often all quantities are asked of the ray model before the search ends; if so far it leaves something; and before
-no more alternatives to the causes are compared but those that need no light traced."""
+SEARCHED, FURTHER, COMPARED = 120, 420, 180
+"""How often all quantities are asked of the ray model before the search ends; before it ends if the causes leave
+something; and before half as many alternatives are compared."""
+ALIKE = 1.0
+"""Standard deviations up to which two causes that dim light dim the same."""
 MISFIT = 4.0
 """Standard deviations from which what is left of a change calls for another cause."""
 
@@ -77,13 +83,24 @@ class Search:
         for number in range(len(best.numbers)):
             rest = best.without(number)
             likely = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
-            likely = [one for one in likely if one.odds > likely[0].odds - CLOSE - UNSURE]
-            traced = [one for one in likely if not self._plain(one.numbers[-1])][:RIVALS]
-            for one in (one for one in likely if one in traced or self._plain(one.numbers[-1])):
-                if one not in traced or self._asked < COMPARED:
+            likely = [one for one in likely if one.odds > likely[0].odds - RARER - UNSURE]
+            traced = [one for one in likely if not self._plain(one.numbers[-1])]
+            traced = traced[: RIVALS if self._asked < COMPARED else RIVALS // 2]
+            for one in likely:
+                if one in traced or self._plain(one.numbers[-1]):
                     self._fit(one, best.odds)
-        others = [one for one in self.pool.values() if one.key != best.key and one.odds > best.odds - CLOSE]
+        others = [one for one in self.pool.values() if one.key != best.key and self._as_good(one, best)]
         return best, *sorted(others, key=lambda one: -one.odds)
+
+    def _as_good(self, one: Explanation, best: Explanation) -> bool:
+        """Return whether an explanation is as good as the best: as likely; or of as many causes and leaving as little,
+        though of sizes that are rarer, which no reading tells."""
+        if one.odds > best.odds - CLOSE:
+            return True
+        if len(one.numbers) != len(best.numbers) or one.odds < best.odds - RARER:
+            return False
+        off = [float(self.what.unexplained(each) @ self.what.unexplained(each)) for each in (one, best)]
+        return off[0] < off[1] + LEFT
 
     def _plain(self, number: int) -> bool:
         """Return whether a cause needs no light traced."""
@@ -129,12 +146,20 @@ class Search:
         return bool((np.abs(self.what.unexplained(one)) > MISFIT).any())
 
     def _likely(self, wider: Sequence[Explanation], most: int = TRIED) -> list[Explanation]:
-        """Return the likeliest explanations, each set of causes at two sizes at most."""
+        """Return the likeliest explanations, each set of causes at two sizes at most; of those of which the last cause
+        only dims light, and dims the same, the first."""
         found: dict[tuple[int, ...], list[Explanation]] = {}
+        dimmed: list[tuple[tuple[int, ...], Any]] = []
+        noise = np.sqrt(np.diagonal(self.what.usual))
         for one in sorted(wider, key=lambda one: -one.odds):
-            same = found.setdefault(one.key, [])
-            if len(same) < 2 and (len(found) <= most) and (not same or self._elsewhere(one, same[0])):
-                same.append(one)
+            if self._plain(one.numbers[-1]) and one.key not in found:
+                own = one.numbers[:-1], one.found[-1].moved / noise
+                if any(own[0] == rest and np.abs(own[1] - moved).max() < ALIKE for rest, moved in dimmed):
+                    continue
+                dimmed.append(own)
+            same = found.get(one.key, [])
+            if len(same) < 2 and (same or len(found) < most) and (not same or self._elsewhere(one, same[0])):
+                found[one.key] = [*same, one]
         return [one for same in found.values() for one in same]
 
     def _wider(self, one: Explanation, but: Sequence[int] = (), most: int | None = 4 * TRIED) -> Iterator[Explanation]:
@@ -160,7 +185,18 @@ class Search:
             for one in self._likely([*self._wider(rest, but=best.numbers)], OTHERS):
                 if (other := self._fit(one, best.odds)).odds > best.odds + BETTER:
                     return other
+        for one in self._merged(best):
+            if (other := self._fit(one, best.odds)).odds > best.odds:
+                return other
         return None
+
+    def _merged(self, best: Explanation) -> Iterator[Explanation]:
+        """Yield explanations with one cause that dims light in place of two."""
+        plain = [k for k, number in enumerate(best.numbers) if self._plain(number)]
+        for a, b in combinations(plain, 2):
+            rest = best.without(b).without(a)
+            wider = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
+            yield from [one for one in wider if self._plain(one.numbers[-1])][:OTHERS]
 
     def _again(self, one: Explanation) -> list[Explanation]:
         """Return an explanation with one of its causes at the size that it would have if it came last: beside a cause

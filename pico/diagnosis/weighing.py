@@ -88,6 +88,16 @@ def one_sided(size: float, variance: float) -> float:
     return math.log(max(1e-300, math.erfc(-size / math.sqrt(2 * max(variance, 1e-30)))))
 
 
+def prior_at(cause: Cause, size: Any) -> Any:
+    """Return the standard deviations (k,) of the sizes of those faults of a cause, usual or GREAT, which one of a size
+    (k,) rather is."""
+    fault = np.array([w.fault for w in cause.ways])
+    far = float(((size / fault) ** 2).sum())
+    usual = math.log(1 - RARE) - far / 2
+    great = math.log(RARE) - len(fault) * math.log(GREAT) - far / GREAT**2 / 2
+    return fault * (GREAT if great > usual else 1.0)
+
+
 def share_of(found: Weighed, cause: Cause) -> float:
     """Return the logarithm of the share of faults that are as large as the prior of a cause takes it to be."""
     if not cause.ways:
