@@ -12,7 +12,7 @@ from pico.model.record import as_json
 from .style import columns, count, listed, paint, wrap
 
 if TYPE_CHECKING:
-    from pico.diagnosis.suspects import Suspect
+    from pico.diagnosis.grouping import Suspect
 
 LIKELY = 0.05
 """The probability from which a suspect is told."""

@@ -12,7 +12,7 @@ from .style import ago, columns, listed, paint, seconds, wrap
 
 if TYPE_CHECKING:
     from pico.bench.mornings import Morning, Read
-    from pico.diagnosis.suspects import Suspect
+    from pico.diagnosis.grouping import Suspect
     from pico.model.trace.event import Event
 
 TOLD = 3.0
@@ -68,11 +68,13 @@ def _first(morning: Morning) -> str:
 
 def _unusual(one: Read, happened: bool) -> bool:
     """Return whether a reading is shown: it changed by more than is usual; where something `happened` by more than its
-    noise; or it could not be read or compared."""
+    noise; it differs though moved parts are expected to make it differ; or it could not be read or compared."""
     if one.now is None or one.change is None:
         return one.then is not None
     wanted = one.then if one.expected is None else one.expected
     noise = math.hypot(one.sigma or 0.0, one.sigma or 0.0)
+    if one.expected is not None and one.then is not None and abs(one.now - one.then) >= TOLD * noise:
+        return True
     return abs(one.change) >= TOLD or (happened and abs(one.now - (wanted or 0.0)) >= TOLD * noise)
 
 
@@ -160,7 +162,9 @@ def _suspects(found: Morning) -> list[str]:
         if whole:
             lines += wrap(f"Repair: {found.repairs[n]}.", _INDENT)
     unexplained = next((s.probability for s in found.suspects if s.kind == "something else"), 0.0)
-    if found.suspects and (unexplained > SURE or (not lines and not found.moved)):
+    if found.unexplained:
+        lines += wrap(_unexplained(found), "  ")
+    elif found.suspects and (unexplained > SURE or (not lines and not found.moved)):
         quiet = sum(s.probability for s in found.suspects if s.kind == "nothing unusual")
         calm, more = "All that was read is as usual.", "What is left, no change of known parts explains."
         lines.append(f"  {calm if quiet >= SURE else more}")
@@ -170,6 +174,19 @@ def _suspects(found: Morning) -> list[str]:
         )
     shortest = found.repair and not whole and not (found.moved and not found.causes)
     return [*lines, *([f"Shortest repair: {found.repair}."] if shortest else [])]
+
+
+def _unexplained(found: Morning) -> str:
+    """Return what the causes leave of which readings."""
+    left = {r.name: abs(r.left or 0.0) for r in found.readings}
+    names = sorted(found.unexplained, key=lambda name: -left[name])
+    parts = [f"{min(MUCH, left[name]):.0f} σ of {name}" for name in names[:MANY]]
+    more = len(names) - len(parts)
+    whole = listed(parts) + (f" and of {more} more readings" if more > 0 else "")
+    if not found.causes:
+        return f"No change of known parts explains {whole}."
+    these = "These causes leave" if len(found.causes) > 1 else "This cause leaves"
+    return f"{these} {whole} unexplained; something else changed as well."
 
 
 def _alike(suspects: list[Suspect]) -> Iterator[list[Suspect]]:
@@ -222,5 +239,5 @@ def _lacks(found: Morning) -> list[str]:
 def data(found: Morning) -> dict[str, Any]:
     """Return schema `pico.morning/v1`: `reference` (when, empty where none), `age` of it [s], `unusual`, `readings`,
     `moved`, `causes` (of each the suspects, the likeliest first) with their `repairs`, `suspects` by probability,
-    `blind`, `repair`, `lacks`."""
+    `blind`, `unexplained`, `repair`, `lacks`."""
     return {"schema": "pico.morning/v1", **as_json(found)}

@@ -17,7 +17,7 @@ from .runs import shown
 from .style import columns, count, on_bench, paint, wrap
 
 if TYPE_CHECKING:
-    from pico.diagnosis.suspects import Suspect
+    from pico.diagnosis.grouping import Suspect
 
 _ON: dict[str | None, str] = {"emulated": "emulated devices, never hardware", "hardware": "hardware"}
 

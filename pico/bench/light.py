@@ -12,7 +12,7 @@ from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 
 if TYPE_CHECKING:
     from pico.diagnosis.claims import Budgeted
-    from pico.diagnosis.suspects import Suspect
+    from pico.diagnosis.grouping import Suspect
     from pico.drawing.picture import Image
     from pico.history.runs.recorded_light import RecordedLight
     from pico.model.diff import Change

@@ -66,12 +66,13 @@ class Mornings:
         found, lacks = self._ahead(seen, quantities), (*what.lacks, *gone)
         if found[0].exit_code and (wrong := self._refused(seen, quantities)):
             quantities = tuple(q for q in quantities if q.name not in wrong)
-            found, lacks = self._ahead(seen, quantities), (*lacks, *wrong.values())
+            found, lacks = self._ahead(seen, quantities), (*lacks, *filter(None, wrong.values()))
         while sum(op.seconds for op in found[0].operations) > LONGEST:
-            longest = next((q for q in reversed(quantities) if q.tunable), None)
+            longest = next((q for q in reversed(quantities) if len(q.shots) > 1), None)
             if longest is None:
                 break
-            quantities = tuple(q for q in quantities if q.shots != longest.shots)
+            keys = {shot.key for shot in longest.shots}
+            quantities = tuple(q for q in quantities if not q.tunable or keys.isdisjoint(s.key for s in q.shots))
             lacks = (*lacks, f"{longest.name} would be read, were a morning longer than {LONGEST:.0f} s")
             found = self._ahead(seen, quantities)
         plan, shots, dark = found
@@ -82,13 +83,15 @@ class Mornings:
         """Return the scans that a plan may not make, with why: on the way to a null light may be too bright for what
         comes next."""
         scans: dict[tuple[str, ...], list[Quantity]] = {}
-        for one in (q for q in quantities if q.tunable):
+        for one in (q for q in quantities if len(q.shots) > 1):
             scans.setdefault(tuple(shot.key for shot in one.shots), []).append(one)
         wrong = dict[str, str]()
         for same in scans.values():
             if (plan := self._ahead(seen, same)[0]).exit_code:
                 why = next(d.summary for d in plan.diagnostics if d.severity == "error")
                 wrong |= {q.name: f"{q.name} would be read, were the way there safe: {why}" for q in same}
+                shots = {shot.key for shot in same[0].shots}
+                wrong |= {q.name: "" for q in quantities if len(q.shots) == 1 and q.shots[0].key in shots}
         return wrong
 
     def _ahead(

@@ -60,9 +60,9 @@ def _causes(setup: Setup, name: str) -> Iterator[Cause]:
         if zero := _zero(kind, tunable):
             yield Cause(name, f"zero of {tunable}", (zero,))
     if element == "polarizer":
-        yield Cause(name, "extinction", (Way("leak", "", 0.02, 4.0, 0.05, one_sided=True),))
+        yield Cause(name, "extinction", (Way("leak", "", 0.005, 4.0, 0.05, one_sided=True),))
     if element in _STEERS:
-        yield Cause(name, "turned", (_turn("yaw", 3e-4, 0.03), _turn("pitch", 3e-4, 0.03)))
+        yield Cause(name, "turned", (_turn("yaw", 1e-4, 0.03), _turn("pitch", 1e-4, 0.03)))
     if element in (*_BENDS, *_OPEN):
         yield from _across(kind, name)
     if element in _TURNS:
@@ -75,7 +75,7 @@ def _causes(setup: Setup, name: str) -> Iterator[Cause]:
 
 def _source(name: str) -> Iterator[Cause]:
     yield Cause(name, "power", (Way("power", "", 0.01, 0.2, 0.01),))
-    yield Cause(name, "pointing", (_turn("yaw", 6e-4, 0.02), _turn("pitch", 6e-4, 0.02)))
+    yield Cause(name, "pointing", (_turn("yaw", 3e-4, 0.02), _turn("pitch", 3e-4, 0.02)))
     yield Cause(name, "polarization", (_turn("roll", 0.02, 3.0),))
     yield Cause(name, "dirt", (_dirt(),))
 
@@ -84,7 +84,7 @@ def _detector(kind: ComponentType, name: str) -> Iterator[Cause]:
     if "pixel_size" in kind.parameters or "mode_radius" in kind.parameters:
         yield Cause(name, "moved across", (_shift("left", 0.001, 0.1), _shift("up", 0.001, 0.1)))
     if "mode_radius" in kind.parameters:
-        yield Cause(name, "turned", (_turn("yaw", 3e-4, 0.03), _turn("pitch", 3e-4, 0.03)))
+        yield Cause(name, "turned", (_turn("yaw", 1e-4, 0.03), _turn("pitch", 1e-4, 0.03)))
     yield Cause(name, "gain", (Way("gain", "", 0.002, 0.1, 0.01),))
     if "dark_current" in kind.parameters:
         yield Cause(name, "dark level", (Way("dark", "electrons/s", 1.0, 200.0, 10.0, one_sided=True),))

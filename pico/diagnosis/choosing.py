@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -154,7 +154,15 @@ def _null(nominal: Nominal, name: str, way: list[str], lit: list[str]) -> Iterat
         yield Quantity(f"{name} null", shots, reads.partition(".")[2], "null", kind.tunables["angle"].unit, address,
                        harmonic)  # fmt: skip
         yield Quantity(f"{name} null depth", shots, reads.partition(".")[2], "depth", "", address, harmonic)
+        yield from _shares(f"{name} null", shots, address, kind.tunables["angle"].unit)
         return
+
+
+def _shares(name: str, shots: Sequence[Shot], tunable: str, unit: str) -> Iterator[Quantity]:
+    """Yield what is read at each set-point of a scan: far off, the scan's law tells little of what that tells."""
+    for shot in shots:
+        number = shot.address.partition(".")[2]
+        yield Quantity(f"{name} at {shot.at[tunable]:g} {unit}", (shot,), number, "share", "", tunable)
 
 
 def _opened(nominal: Nominal, plate: str, way: list[str], reads: str) -> dict[str, Value]:
@@ -238,6 +246,7 @@ def _iris(nominal: Nominal, name: str, way: list[str], lit: list[str]) -> Iterat
                 shots = tuple(_shot(nominal, detectors[0], reads, {**closed, f"{before}.{tunable}": p}) for p in points)
                 unit = known.tunables[tunable].unit
                 yield Quantity(f"{before}.{tunable} through {name}", shots, number, "peak", unit, f"{before}.{tunable}")
+                yield from _shares(f"{before}.{tunable} through {name}", shots, f"{before}.{tunable}", unit)
         if axes:
             return
 

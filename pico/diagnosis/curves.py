@@ -117,4 +117,9 @@ class Curve:
 
 def bends(way: Way) -> bool:
     """Return whether what a way does is far from proportional to its size."""
-    return way.what == "leak" or way.what.startswith(ZERO)
+    return way.what in ("leak", "retardance") or turns(way)
+
+
+def turns(way: Way) -> bool:
+    """Return whether a way turns a part about the beam, so that it does the same again after a turn."""
+    return way.what in ("roll", f"{ZERO}angle")

@@ -5,21 +5,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
 
 from pico.diagnosis.causes import Cause, Way
-from pico.diagnosis.curves import Curve, bends
+from pico.diagnosis.curves import Curve, bends, turns
 from pico.diagnosis.darkness import stopped
 from pico.diagnosis.nominal import Nominal, Step
 from pico.diagnosis.quantities import Quantity
-from pico.diagnosis.responses import Response, between, constant, linear, shown, smooth
+from pico.diagnosis.responses import Response, between, constant, denser, linear, shown, smooth
 
-SHARES = (0.1, 0.35, 0.8)
-"""Logarithms of a factor of a focal length that are traced."""
+FOCAL = (25, 30, 35, 40, 50, 60, 75, 100, 125, 150, 175, 200, 250, 300, 400, 500, 750, 1000)
+"""Focal lengths in which lenses come [mm]: where another lens is put into a mount, it has one of these."""
+SHARE, FURTHEST = 0.1, 1.1
+"""Logarithms of a factor of a focal length: of one that is traced besides, either way, and of the greatest."""
 OPENINGS = (0.04, 0.12, 0.25, 0.45, 0.65, 0.85, 0.97)
 """Shares of its opening by which an iris may have closed that are traced."""
 
@@ -32,12 +34,29 @@ class Modelled:
     nominal: Nominal
     wanted: tuple[Quantity, ...]
     lowest: Any
+    _values: dict[Any, float] = field(default_factory=dict)
 
     def read(self, steps: Sequence[Step] = (), *, scans: bool = True) -> Any:
         """Return the quantities (n,) after some changes, nan where the model does not tell, or of `scans` that are left
         out."""
-        found = [self.nominal.quantity(one, steps) if scans or len(one.shots) == 1 else None for one in self.wanted]
-        return np.array([math.nan if one is None else one.value for one in found])
+        return np.array([self._value(one, steps) if scans or not one.tunable else math.nan for one in self.wanted])
+
+    def _value(self, one: Quantity, steps: Sequence[Step]) -> float:
+        """Return a quantity after some changes; what was asked once is kept."""
+        key = (id(one), tuple(s for s in steps if any(self.nominal.matters(shot, s.part) for shot in one.shots)))
+        if key not in self._values:
+            found = self.nominal.quantity(one, steps)
+            self._values[key] = math.nan if found is None else found.value
+        return self._values[key]
+
+    @property
+    def asked(self) -> int:
+        """How many values of quantities were asked of the ray model."""
+        return len(self._values)
+
+    def only(self, numbers: Sequence[int]) -> Modelled:
+        """Return the same for some of the quantities, with what was asked of these."""
+        return Modelled(self.nominal, tuple(self.wanted[n] for n in numbers), self.lowest[numbers], self._values)
 
     @cached_property
     def base(self) -> Any:
@@ -85,7 +104,9 @@ class Modelled:
     def _traced(self, part: str, way: Way) -> tuple[float, ...]:
         """Return the sizes of a way that are traced, where no parabola tells what it does; none where one does."""
         if way.what == "focal":
-            return (*(-s for s in reversed(SHARES)), *SHARES)
+            own = self.nominal.setup.type_of(part).number("focal_length", "mm") or FOCAL[0]
+            others = [math.log(f / abs(own)) for f in FOCAL]
+            return tuple(sorted({-SHARE, SHARE, *(s for s in others if SHARE < abs(s) < FURTHEST)}))
         if way.what.endswith(":opening"):
             live = float(self.nominal.values.get(part, {}).get("opening") or 0.0)
             return (*(-s * live for s in reversed(OPENINGS)), 0.1 * live, 0.4 * live) if live else ()
@@ -95,10 +116,10 @@ class Modelled:
         (way,) = cause.ways
         if sizes[0] < math.inf:
             rows = {s: self.read(self._steps(cause, (s,))) - self.base for s in sizes}
-            return between(cause, {0.0: np.zeros(len(self.wanted)), **rows})
+            return between(cause, denser({0.0: np.zeros(len(self.wanted)), **rows}))
         curve = Curve(self.nominal, cause.part, way)
         rows = {float(s): curve.quantities(self.wanted, float(s)) - self.base for s in curve.sizes}
-        if way.what.endswith(":angle"):
+        if turns(way):
             far = Curve(self.nominal, cause.part, way, whole=True)
             rows |= {float(s): far.quantities(self.wanted, float(s)) - self.base for s in far.sizes}
         return between(cause, rows)

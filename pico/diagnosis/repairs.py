@@ -9,7 +9,7 @@ from pico.diagnosis.darkness import NO_LIGHT, STOPS
 from pico.model.setup import Setup
 
 if TYPE_CHECKING:
-    from pico.diagnosis.suspects import Suspect
+    from pico.diagnosis.grouping import Suspect
 
 _STEERS = ("stage_y", "stage_z", "tip", "tilt")
 

@@ -46,6 +46,12 @@ class Response:
         ways = zip(self.cause.ways, np.asarray(size).tolist(), strict=True)
         return tuple(Step(self.cause.part, way.what, by) for way, by in ways if by)
 
+    def only(self, numbers: Sequence[int]) -> Response:
+        """Return the same for some of the quantities."""
+        curved = None if self.curved is None else self.curved[numbers]
+        lowest = self.lowest if np.ndim(self.lowest) == 0 else self.lowest[numbers]
+        return replace(self, moved=self.moved[:, numbers], slope=self.slope[numbers], curved=curved, lowest=lowest)
+
     def shown(self, lowest: Any) -> Response:
         """Return the same as instruments show it: no change is below the `lowest` (n,), where no light comes any more
         it is that."""
@@ -96,6 +102,27 @@ def between(cause: Cause, rows: Mapping[float, Any]) -> Response:
     near = max(least, 1)
     slope = (moved[near] - moved[near - 1]) / (sizes[near] - sizes[near - 1])
     return Response(cause, np.array(sizes)[:, None], moved, np.where(np.isfinite(slope), slope, 0.0)[:, None])
+
+
+def denser(rows: Mapping[float, Any], times: int = 6) -> dict[float, Any]:
+    """Return changes (n,) at some sizes with others between them, by the cubics that go through these with the slopes
+    of parabolas (Catmull and Rom); linear where a neighbor is not known."""
+    sizes = np.array(sorted(rows))
+    known = np.stack([rows[s] for s in sizes])
+    with np.errstate(invalid="ignore"):
+        steep = (known[1:] - known[:-1]) / np.diff(sizes)[:, None]
+        ahead, back = np.diff(sizes)[1:, None], np.diff(sizes)[:-1, None]
+        middle = (steep[:-1] * ahead + steep[1:] * back) / (ahead + back)
+    slopes = np.concatenate([steep[:1], middle, steep[-1:]])
+    found = {}
+    for n, width in enumerate(np.diff(sizes)):
+        low, high = (np.where(np.isfinite(slopes[k]), slopes[k], steep[n]) * width for k in (n, n + 1))
+        for t in np.arange(times) / times:
+            a, b = t * (1 - t) ** 2, -(t**2) * (1 - t)
+            share = t * t * (3 - 2 * t)
+            found[float(sizes[n] + t * width)] = (1 - share) * known[n] + share * known[n + 1] + a * low + b * high
+    found[float(sizes[-1])] = known[-1]
+    return found
 
 
 def smooth(cause: Cause, steps: Sequence[float], changes: Callable[[Sequence[float], bool], Any]) -> Response:

@@ -1,260 +1,211 @@
-"""Several causes at once: the likeliest is found, what it explains is set aside with its uncertainty, and the rest is
-weighed again, until nothing unusual is left. Then each cause is weighed anew with the others set aside, and replaced or
-dropped where that explains more.
+"""Several causes at once: explanations grow by one cause at a time, the likeliest are fitted by the whole ray model;
+of each cause it is asked then whether it is needed and whether another would do, until nothing explains more.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
-from itertools import pairwise
+from dataclasses import dataclass, field
+from itertools import combinations
 from typing import Any
 
 import numpy as np
 
+from pico.diagnosis.explanations import PLAIN, Changed, Explanation, fitted, roughly
 from pico.diagnosis.modelled import Modelled
-from pico.diagnosis.responses import Response
-from pico.diagnosis.weighing import Weighed, normal, one_sided, share_of, weighed
+from pico.diagnosis.weighing import modes
 
 MOST = 6
 """Causes that are looked for, at most."""
 BESIDE = 3
 """How many explanations are followed at a time."""
-BETTER = 1.0
-"""By how much the logarithm of the evidence must grow for a cause to replace another."""
-ROUNDS, ANEW = 3, 5
-"""How often all causes together are modelled anew."""
+TRIED = 4
+"""How many explanations with one cause more are fitted by the whole model, the likeliest."""
+BETTER = 0.5
+"""By how much the logarithm of the odds must grow for one explanation to replace another."""
+CLOSE = 3.0
+"""Up to which difference of the logarithm of the odds another explanation is as good as the best."""
+RARER, LEFT = 10.0, 4.0
+"""Up to which difference of it one of as many causes is, if it leaves of all changes no more than so many variances."""
+UNSURE = 4.0
+"""By how much less likely an explanation may look before it is fitted by the whole model."""
+RIVALS = 8
+"""How many alternatives to each cause are fitted by the whole model, the likeliest."""
+STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
+"""Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
+these may be than the best; and how many alternatives to each cause are tried then."""
+SEARCHED, FURTHER, COMPARED = 120, 420, 180
+"""How often all quantities are asked of the ray model before the search ends; before it ends if the causes leave
+something; and before half as many alternatives are compared."""
+ALIKE = 1.0
+"""Standard deviations up to which two causes that dim light dim the same."""
+MISFIT = 4.0
+"""Standard deviations from which what is left of a change calls for another cause."""
 
 
-@dataclass(frozen=True, eq=False)
-class Changed:
-    """What is to be explained: changes `d` (n,) of covariance `usual` (n, n) when nothing unusual happened, the
-    `responses` of causes with the logarithm of the `prior` of each, `calm` that of nothing, and the share `model` by
-    which a change may differ from what the model gives it."""
+@dataclass(eq=False)
+class Search:
+    """A search for what explains changes. `pool`: all explanations that were fitted by the whole model, by key."""
 
-    d: Any
-    usual: Any
-    responses: tuple[Response, ...]
-    prior: tuple[float, ...]
-    calm: float
-    model: float
+    what: Changed
+    model: Modelled
+    pool: dict[tuple[int, ...], Explanation] = field(default_factory=dict)
+    _tried: set[tuple[tuple[int, tuple[int, ...]], ...]] = field(default_factory=set)
+    _first: int = 0
 
-    def noise(self, causes: Sequence[Weighed] = ()) -> Any:
-        """Return the covariance (n, n) of changes whose causes are known in size."""
-        size = sum((np.where(np.isfinite(c.moved), c.moved, 0.0) ** 2 for c in causes), self.d**2)
-        return self.usual + np.diag(self.model**2 * size)
+    def __post_init__(self) -> None:
+        self._first = self.model.asked
 
-    def spread(self, one: Explanation, but: int = -1) -> Any:
-        """Return the covariance (n, n) of changes with the causes of an explanation set aside, but for one of them."""
-        whole = self.noise(one.found)
-        for n, cause in enumerate(one.found):
-            if n != but:
-                whole = whole + (cause.slope * cause.prior**2) @ cause.slope.T
-        return whole
+    @property
+    def _asked(self) -> float:
+        """How often all quantities were asked of the ray model."""
+        return (self.model.asked - self._first) / len(self.what.d)
 
-    def left(self, one: Explanation, but: int = -1) -> Any:
-        """Return what is left (n,) of the changes with the causes of an explanation set aside, but for one of them."""
-        gone = sum((c.moved - c.slope @ c.size for n, c in enumerate(one.found) if n != but), np.zeros(len(self.d)))
-        return self.d - gone - (0.0 if one.beside is None else one.beside)
+    def best(self) -> Explanation:
+        """Return the likeliest explanation: without causes where nothing unusual is the likeliest."""
+        self._grown([self._fit(Explanation())])
+        done: set[tuple[int, ...]] = set()
+        for _ in range(STARTS):
+            first = max(self.pool.values(), key=lambda one: one.odds)
+            near = [one for one in self.pool.values() if one.key not in done and one.odds > first.odds - NEIGHBOR]
+            if not near or self._spent(first):
+                break
+            start = max(near, key=lambda one: one.odds)
+            done.add(start.key)
+            if (other := self._bettered(start)) is not None and other.odds > first.odds:
+                self._grown([other])
+        return max(self.pool.values(), key=lambda one: one.odds)
 
+    def close(self, best: Explanation) -> tuple[Explanation, ...]:
+        """Return the explanations that are as good as the best, with one of its causes replaced or otherwise, that
+        first."""
+        for number in range(len(best.numbers)):
+            rest = best.without(number)
+            likely = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
+            likely = [one for one in likely if one.odds > likely[0].odds - RARER - UNSURE]
+            traced = [one for one in likely if not self._plain(one.numbers[-1])]
+            traced = traced[: RIVALS if self._asked < COMPARED else RIVALS // 2]
+            for one in likely:
+                if one in traced or self._plain(one.numbers[-1]):
+                    self._fit(one, best.odds)
+        others = [one for one in self.pool.values() if one.key != best.key and self._as_good(one, best)]
+        return best, *sorted(others, key=lambda one: -one.odds)
 
-@dataclass(frozen=True, eq=False)
-class Explanation:
-    """Causes by their `numbers` among the responses, each `found` at its size, what they do together `beside` the sum
-    (n,), and the logarithm of the `odds`."""
+    def _as_good(self, one: Explanation, best: Explanation) -> bool:
+        """Return whether an explanation is as good as the best: as likely; or of as many causes and leaving as little,
+        though of sizes that are rarer, which no reading tells."""
+        if one.odds > best.odds - CLOSE:
+            return True
+        if len(one.numbers) != len(best.numbers) or one.odds < best.odds - RARER:
+            return False
+        off = [float(self.what.unexplained(each) @ self.what.unexplained(each)) for each in (one, best)]
+        return off[0] < off[1] + LEFT
 
-    numbers: tuple[int, ...] = ()
-    found: tuple[Weighed, ...] = ()
-    beside: Any = None
-    odds: float = 0.0
+    def _plain(self, number: int) -> bool:
+        """Return whether a cause needs no light traced."""
+        return all(w.what in PLAIN for w in self.what.responses[number].cause.ways)
 
-    def without(self, number: int) -> Explanation:
-        """Return the same without one of its causes."""
-        kept = [n for n in range(len(self.numbers)) if n != number]
-        return Explanation(tuple(self.numbers[n] for n in kept), tuple(self.found[n] for n in kept), self.beside)
+    def _fit(self, one: Explanation, least: float = -math.inf) -> Explanation:
+        """Return an explanation fitted by the whole model, or the better one of the same causes."""
+        sides = [tuple(np.sign(f.size).astype(int).tolist()) for f in one.found]
+        tried = tuple(sorted(zip(one.numbers, sides, strict=True)))
+        known = self.pool.get(one.key)
+        if known is None or tried not in self._tried:
+            self._tried.add(tried)
+            found = fitted(self.what, self.model, one, least)
+            if known is None or found.odds > known.odds:
+                self.pool[one.key] = known = found
+        return known
 
+    def _elsewhere(self, one: Explanation, known: Explanation) -> bool:
+        """Return whether an explanation has a cause on the other side of nothing than one that is known."""
+        sizes = dict(zip(known.numbers, known.found, strict=True))
+        return any(f.size @ sizes[n].size < 0 for n, f in zip(one.numbers, one.found, strict=True) if len(f.size))
 
-def explained(what: Changed, model: Modelled) -> Explanation:
-    """Return the likeliest explanation: without causes where nothing unusual is the likeliest."""
-    best = _judged(what, Explanation())
-    for _ in range(MOST):
-        wider = _widest(what, best)
-        if wider is best:
-            return best
-        settled = _settled(what, model, wider)
-        if settled.odds <= best.odds:
-            return best
-        best = settled
-    return best
+    def _grown(self, beam: Sequence[Explanation]) -> None:
+        """Fit explanations that have the causes of some and more, as long as that makes them likelier."""
+        best, patient = max(beam, key=lambda one: one.odds), True
+        while beam and len(beam[0].numbers) < MOST and not self._spent(best):
+            wider, fits = self._likely([one for each in beam for one in self._wider(each)]), list[Explanation]()
+            for one in wider:
+                fits.append(self._fit(one, max((f.odds for f in fits), default=-math.inf)))
+            beam = sorted({f.key: f for f in fits}.values(), key=lambda one: -one.odds)[:BESIDE]
+            if beam and beam[0].odds > best.odds:
+                best, patient = beam[0], True
+            elif not patient or not self._misses(best):
+                break
+            else:
+                patient = False
 
+    def _spent(self, best: Explanation) -> bool:
+        """Return whether the ray model was asked as often as the search may."""
+        return self._asked > (FURTHER if self._misses(best) else SEARCHED)
 
-def _widest(what: Changed, best: Explanation) -> Explanation:
-    """Return the likeliest explanation that has the causes of another one and more, each taken to do what it does
-    alone; that other one where none is likelier."""
-    beam = [best]
-    while beam and len(beam[0].numbers) < MOST:
-        beam = _wider(what, beam)
-        if not beam or beam[0].odds <= best.odds:
-            break
-        best = beam[0]
-    return best
+    def _misses(self, one: Explanation) -> bool:
+        return bool((np.abs(self.what.unexplained(one)) > MISFIT).any())
 
+    def _likely(self, wider: Sequence[Explanation], most: int = TRIED) -> list[Explanation]:
+        """Return the likeliest explanations, each set of causes at two sizes at most; of those of which the last cause
+        only dims light, and dims the same, the first."""
+        found: dict[tuple[int, ...], list[Explanation]] = {}
+        dimmed: list[tuple[tuple[int, ...], Any]] = []
+        noise = np.sqrt(np.diagonal(self.what.usual))
+        for one in sorted(wider, key=lambda one: -one.odds):
+            if self._plain(one.numbers[-1]) and one.key not in found:
+                own = one.numbers[:-1], one.found[-1].moved / noise
+                if any(own[0] == rest and np.abs(own[1] - moved).max() < ALIKE for rest, moved in dimmed):
+                    continue
+                dimmed.append(own)
+            same = found.get(one.key, [])
+            if len(same) < 2 and (same or len(found) < most) and (not same or self._elsewhere(one, same[0])):
+                found[one.key] = [*same, one]
+        return [one for same in found.values() for one in same]
 
-def _wider(what: Changed, beam: Sequence[Explanation]) -> list[Explanation]:
-    """Return the likeliest explanations with one cause more than those of a beam."""
-    wider: dict[tuple[int, ...], tuple[float, Explanation]] = {}
-    for one in beam:
-        found = weighed_beside(what, one)
-        for n in sorted(range(len(found)), key=lambda n: -found[n].evidence - what.prior[n])[: 2 * BESIDE]:
-            key = tuple(sorted((*one.numbers, n)))
-            if n in one.numbers or not np.isfinite(found[n].evidence):
+    def _wider(self, one: Explanation, but: Sequence[int] = (), most: int | None = 4 * TRIED) -> Iterator[Explanation]:
+        """Yield the likeliest explanations with one cause more, none of some, by what is known of each cause alone."""
+        what = self.what
+        rough = Explanation(one.numbers, one.found, one.beside)
+        spread, left = what.spread(rough), what.left(rough)
+        found = []
+        for n, response in enumerate(what.responses):
+            if n not in one.numbers and n not in but:
+                found += [(f.evidence + what.prior[n], n, f) for f in modes(response, spread, left)]
+        found = [f for f in found if math.isfinite(f[0])]
+        for _, n, cause in sorted(found, key=lambda f: -f[0])[:most]:
+            yield roughly(what, rough.beyond(n, cause))
+
+    def _bettered(self, best: Explanation) -> Explanation | None:
+        """Return a likelier explanation with a cause less or another one; None if there is none."""
+        for number in range(len(best.numbers)):
+            rest = best.without(number)
+            for less in (rest, *self._again(rest)):
+                if (fewer := self._fit(less, best.odds)).odds > best.odds:
+                    return fewer
+            for one in self._likely([*self._wider(rest, but=best.numbers)], OTHERS):
+                if (other := self._fit(one, best.odds)).odds > best.odds + BETTER:
+                    return other
+        for one in self._merged(best):
+            if (other := self._fit(one, best.odds)).odds > best.odds:
+                return other
+        return None
+
+    def _merged(self, best: Explanation) -> Iterator[Explanation]:
+        """Yield explanations with one cause that dims light in place of two."""
+        plain = [k for k, number in enumerate(best.numbers) if self._plain(number)]
+        for a, b in combinations(plain, 2):
+            rest = best.without(b).without(a)
+            wider = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
+            yield from [one for one in wider if self._plain(one.numbers[-1])][:OTHERS]
+
+    def _again(self, one: Explanation) -> list[Explanation]:
+        """Return an explanation with one of its causes at the size that it would have if it came last: beside a cause
+        that did not happen it may have gone astray."""
+        what, found = self.what, list[Explanation]()
+        for k, number in enumerate(one.numbers):
+            if self._plain(number) or len(one.numbers) == 1:
                 continue
-            odds = found[n].evidence + sum(what.prior[m] for m in key)
-            if key not in wider or odds > wider[key][0]:
-                wider[key] = odds, Explanation((*one.numbers, n), (*one.found, found[n]), one.beside)
-    likely = sorted(wider.values(), key=lambda pair: -pair[0])[: 2 * BESIDE]
-    return sorted((together(what, None, one) for _, one in likely), key=lambda one: -one.odds)[:BESIDE]
-
-
-def weighed_beside(what: Changed, beside: Explanation, but: int = -1) -> list[Weighed]:
-    """Return every cause weighed with those of an explanation set aside, but for one of them."""
-    spread, left = what.spread(beside, but), what.left(beside, but)
-    return [weighed(r, spread, left) for r in what.responses]
-
-
-def together(
-    what: Changed, model: Modelled | None, one: Explanation, rounds: int = ROUNDS, *, anew: bool = False
-) -> Explanation:
-    """Return an explanation with its causes at the sizes that explain most together. `model`: by which what they do
-    together is traced; without it that is the sum of what each does. `anew`: their slopes are traced, too."""
-    responses, sizes = [what.responses[n] for n in one.numbers], [f.size for f in one.found]
-    best, least = Explanation(), math.inf
-    for number in range(rounds):
-        moved = [_known(r.at(s)) for r, s in zip(responses, sizes, strict=True)]
-        slopes = [
-            _slope(model, responses, sizes, m) if model and anew else _known(r.slope_at(s))
-            for m, (r, s) in enumerate(zip(responses, sizes, strict=True))
-        ]
-        found = tuple(
-            replace(f, size=z, moved=m, slope=s) for f, z, m, s in zip(one.found, sizes, moved, slopes, strict=True)
-        )
-        beside = one.beside if model is None else _whole(model, responses, sizes, moved) - sum(moved, 0.0)
-        now = _judged(what, Explanation(one.numbers, found, beside))
-        if (off := _misfit(what, now)) < least:
-            best, least = now, off
-        if number == rounds - 1:
-            break
-        last, sizes = sizes, _sizes(what, now)
-        near = [0.1 * np.sqrt(np.maximum(0.0, np.diagonal(f.spread))) for f in now.found]
-        if all((np.abs(a - b) <= n + 1e-12).all() for a, b, n in zip(sizes, last, near, strict=True)):
-            break
-    return best
-
-
-def _misfit(what: Changed, one: Explanation) -> float:
-    """Return how far an explanation is from what changed, in variances, with how rare the sizes of its causes are."""
-    left = what.d - sum((f.moved for f in one.found), np.zeros(len(what.d)))
-    left = left - (0.0 if one.beside is None else one.beside)
-    rare = sum(float(np.sum((f.size / f.prior) ** 2)) for f in one.found if len(f.size))
-    return float(left @ np.linalg.solve(what.noise(one.found), left)) + rare
-
-
-def _known(changes: Any) -> Any:
-    """Return changes, 0 where they are not known."""
-    return np.where(np.isfinite(changes), changes, 0.0)
-
-
-def _whole(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any], moved: Sequence[Any]) -> Any:
-    """Return what causes do together (n,): by the model, or, where it does not tell, as the sum of what each does."""
-    steps = [s for r, size in zip(responses, sizes, strict=True) for s in r.steps(size)]
-    whole = model.changes(steps) if steps else np.zeros(len(model.lowest))
-    whole = np.where(np.isfinite(whole), whole, sum(moved, np.zeros(len(whole))))
-    for response, one in zip(responses, moved, strict=True):
-        if not response.cause.ways:  # light that is kept back, which is no change of the model
-            whole = np.minimum(whole, np.where(one < 0, one, whole))
-    return whole
-
-
-def _sizes(what: Changed, one: Explanation) -> list[Any]:
-    """Return the sizes of the causes of an explanation that explain most together, by their slopes."""
-    if not one.found:
-        return []
-    slope = np.concatenate([f.slope for f in one.found], axis=1)
-    prior = np.diag(np.concatenate([f.prior for f in one.found]) ** 2)
-    spread = what.noise(one.found)
-    size = prior @ slope.T @ np.linalg.solve(spread + slope @ prior @ slope.T, what.left(one))
-    ends = np.cumsum([0, *(f.slope.shape[1] for f in one.found)])
-    return [size[a:b] for a, b in pairwise(ends)]
-
-
-def _slope(model: Modelled, responses: Sequence[Response], sizes: Sequence[Any], number: int) -> Any:
-    """Return the derivatives (n, k) of the quantities by one of some causes, all at their sizes."""
-    own, size = responses[number], sizes[number]
-    near = own.slope_at(size)
-    if all(abs(s) < 2 * w.step for s, w in zip(size, own.cause.ways, strict=True)) and len(responses) == 1:
-        return _known(near)
-    others = [s for m, r in enumerate(responses) if m != number for s in r.steps(sizes[m])]
-    columns = []
-    for k, way in enumerate(own.cause.ways):
-        by = way.step / 4 * np.eye(len(size))[k]
-        ends = [model.changes([*others, *own.steps(there)]) for there in (size - by, size + by)]
-        slope = (ends[1] - ends[0]) / (way.step / 2)
-        columns.append(np.where(np.isfinite(slope), slope, np.where(np.isfinite(near[:, k]), near[:, k], 0.0)))
-    return np.stack(columns, axis=1) if columns else near
-
-
-def _judged(what: Changed, one: Explanation) -> Explanation:
-    """Return an explanation with its odds."""
-    odds = normal(what.spread(one), what.left(one)) + (0.0 if one.numbers else what.calm)
-    if not one.numbers:
-        return replace(one, odds=odds)
-    covariance = _covariance(what, one)
-    sizes = np.concatenate([f.size for f in one.found])
-    ways = [way for n in one.numbers for way in what.responses[n].cause.ways]
-    for n, way in enumerate(ways):
-        if way.one_sided:
-            odds += one_sided(float(sizes[n]), float(covariance[n, n]))
-    odds += sum(share_of(f, what.responses[n].cause) for n, f in zip(one.numbers, one.found, strict=True))
-    ends = np.cumsum([0, *(len(f.size) for f in one.found)])
-    found = tuple(replace(f, spread=covariance[a:b, a:b]) for f, (a, b) in zip(one.found, pairwise(ends), strict=True))
-    return replace(one, found=found, odds=odds + sum(what.prior[n] for n in one.numbers))
-
-
-def _covariance(what: Changed, one: Explanation) -> Any:
-    """Return the covariance (k, k) of the sizes of all causes of an explanation."""
-    slope = np.concatenate([f.slope for f in one.found], axis=1)
-    prior = np.diag(np.concatenate([f.prior for f in one.found]) ** 2)
-    whole = what.noise(one.found) + slope @ prior @ slope.T
-    return prior - prior @ slope.T @ np.linalg.solve(whole, slope @ prior)
-
-
-def _settled(what: Changed, model: Modelled, best: Explanation) -> Explanation:
-    """Return an explanation modelled as a whole, after each of its causes was dropped or replaced where that explains
-    more."""
-    best = together(what, model, best)
-    for _ in range(MOST):
-        other = next(_others(what, model, best), None)
-        if other is None:
-            break
-        best = other
-    exact = together(what, model, best, ANEW, anew=True)
-    return exact if exact.odds > best.odds - BETTER else best
-
-
-def _others(what: Changed, model: Modelled, best: Explanation) -> Iterator[Explanation]:
-    """Yield explanations that are likelier, with a cause less or another one."""
-    for k in range(len(best.numbers)):
-        rest = best.without(k)
-        less = together(what, None, rest) if rest.numbers else _judged(what, Explanation())
-        if less.odds > best.odds - BETTER and rest.numbers:
-            less = together(what, model, rest)
-        if less.odds > best.odds:
-            yield less
-        found = weighed_beside(what, less)
-        odds = [f.evidence + p for f, p in zip(found, what.prior, strict=True)]
-        n = max(range(len(odds)), key=lambda n: odds[n])
-        if n not in best.numbers and odds[n] > odds[best.numbers[k]] + BETTER:
-            other = together(what, model, Explanation((*less.numbers, n), (*less.found, found[n]), less.beside))
-            if other.odds > best.odds + BETTER:
-                yield other
+            rest = one.without(k)
+            seen = modes(what.responses[number], what.spread(rest), what.left(rest))
+            found += [roughly(what, rest.beyond(number, f)) for f in seen if math.isfinite(f.evidence)]
+        return sorted(found, key=lambda again: -again.odds)[:OTHERS]

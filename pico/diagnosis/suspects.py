@@ -20,7 +20,7 @@ each part among its causes. Several causes are found one after the other (`sever
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,24 +28,23 @@ import numpy as np
 
 from pico.diagnosis.causes import Cause, Way
 from pico.diagnosis.darkness import losses
+from pico.diagnosis.explanations import Changed, Explanation, judged
+from pico.diagnosis.grouping import Suspect, grouped, suspect
 from pico.diagnosis.modelled import Modelled
 from pico.diagnosis.nominal import Nominal
 from pico.diagnosis.quantities import FLICKER, Got, Quantity
 from pico.diagnosis.responses import Response
-from pico.diagnosis.several import Changed, Explanation, explained, together, weighed_beside
-from pico.diagnosis.weighing import Weighed, alike, direction, normal
+from pico.diagnosis.several import Search
+from pico.diagnosis.weighing import Weighed, alike, direction, normal, weighed
 
-MODEL = 0.03
-"""By which share a change may be another than the model gives it, one standard deviation."""
+ROUGH, MODEL = 0.05, 0.005
+"""By which share a change may be another than the ray model gives it, one standard deviation: of one cause alone, which
+is traced at a few sizes, and of all causes together, traced at theirs."""
 QUIET, OTHER, WILD = 0.9, 0.005, 30.0
-CLOSE = 3.0
-"""Up to which difference of the logarithm of the odds another part explains what was read as well as the first."""
 CHANCE, UNUSUAL = 2.0, 3.0
 """Standard deviations of their sum of squares, and of one of them, up to which changes are taken to be chance."""
-LEAST = 1e-3
-"""The least probability of a suspect that is told."""
-KEPT = 4
-"""How many alternatives to a cause are modelled anew, the likeliest."""
+OBVIOUS = 30.0
+"""Standard deviations of what was read from which a change needs no test of whether it is usual."""
 DARK = 0.3
 """The standard deviation of the logarithm of a reading from which there may be no light."""
 
@@ -79,30 +78,18 @@ _DEEP = -25.0
 
 
 @dataclass(frozen=True)
-class Suspect:
-    """A cause, its probability, and its size with one standard deviation, by way; `part` is empty for nothing unusual
-    and for what no cause explains. `like`: other parts whose fault would look the same to all readings."""
-
-    part: str
-    kind: str
-    probability: float
-    size: Mapping[str, float]
-    sigma: Mapping[str, float]
-    units: Mapping[str, str]
-    like: tuple[str, ...] = ()
-
-
-@dataclass(frozen=True)
 class Verdict:
     """What most likely happened. `causes`: each thing that did, in the order in which it was found, as the suspects of
     which one did it, the likeliest first; none where nothing unusual is likelier. `suspects`: all of them, the
     likeliest first, with nothing unusual and what no cause explains among them. `changes`: each quantity's change in
-    standard deviations of what is usual, in the order given. `blind`: the parts about which no quantity tells."""
+    standard deviations of what is usual, in the order given. `blind`: the parts about which no quantity tells. `left`:
+    what the causes leave of each quantity's change, in its standard deviations."""
 
     suspects: tuple[Suspect, ...]
     changes: tuple[float, ...]
     causes: tuple[tuple[Suspect, ...], ...] = ()
     blind: tuple[str, ...] = ()
+    left: tuple[float, ...] = ()
 
     @property
     def quiet(self) -> float:
@@ -123,45 +110,62 @@ def suspects(
     model = Modelled(nominal, tuple(c.quantity for c in known), np.array([c.lowest for c in known]))
     if any(c.quantity.law == "share" and c.now.sigma > DARK and c.change < -1 for c in known):
         possible = (*possible, *losses(nominal, tuple(dict.fromkeys(c.part for c in possible))))
-    away = _loose(model, loose)
-    found = _weighed(known, model, model.proportional(possible), away)
-    if found[1].numbers or _far(*found):
-        found = _weighed(known, model, model.responses(possible), away)
-    what, best = found
-    groups = [_group(what, model, best, k) for k in range(len(best.numbers))]
-    told = _told(what, best, groups)
-    by = {id(c): float(x) for c, x in zip(known, what.d / np.sqrt(np.diagonal(what.usual)), strict=True)}
+    away, once = _loose(model, loose), _once(known)
+    obvious = any(abs(c.change) > OBVIOUS * math.hypot(c.then.sigma, c.now.sigma) for c in known)
+    whole = _changed(known, model, (model.responses if obvious else model.proportional)(possible), away)
+    what = whole.only(once)
+    close: tuple[Explanation, ...] = (judged(what, Explanation(exact=True)),)
+    if obvious or _far(what):
+        whole = whole if obvious else _changed(known, model, model.responses(possible), away)
+        what = whole.only(once)
+        search = Search(what, model.only(once))
+        close = search.close(search.best())
+    groups = grouped(what, close)
+    told = _told(what, close[0], groups)
+    by = dict(zip(map(id, known), (whole.d / np.sqrt(np.diagonal(whole.usual))).tolist(), strict=True))
+    left = dict(zip((id(known[n]) for n in once), what.unexplained(close[0]).tolist(), strict=True))
     return Verdict(
-        tuple(sorted(told, key=lambda s: -s.probability)), tuple(by.get(id(c), math.nan) for c in compared),
-        tuple(groups), _blind(what, possible),
+        tuple(sorted(told, key=lambda s: -s.probability)), tuple(by.get(id(c), math.nan) for c in compared), groups,
+        _blind(what, possible), tuple(left.get(id(c), math.nan) for c in compared),
     )  # fmt: skip
 
 
-def _weighed(
-    known: Sequence[Compared], model: Modelled, responses: Sequence[Response], away: Any
-) -> tuple[Changed, Explanation]:
-    """Return what is to be explained by causes with some responses, and the likeliest explanation. `away`: covariance
-    that is usual besides."""
+def _once(known: Sequence[Compared]) -> list[int]:
+    """Return the numbers of the quantities that are not made of readings that are quantities themselves."""
+    single = {c.quantity.shots[0].key for c in known if len(c.quantity.shots) == 1}
+    return [
+        n for n, c in enumerate(known) if len(c.quantity.shots) == 1 or not {s.key for s in c.quantity.shots} <= single
+    ]
+
+
+def _changed(known: Sequence[Compared], model: Modelled, responses: Sequence[Response], away: Any) -> Changed:
+    """Return what is to be explained by causes with some responses. `away`: covariance that is usual besides."""
     shown = (r.shown(model.lowest) for r in responses)
     telling = tuple(r for r in shown if r.slope.any() or (r.moved != 0).any())
     prior = tuple(_prior([r.cause for r in telling]))
     d = np.array([c.change for c in known])
-    what = Changed(d, _usual(known, telling) + away, telling, prior, math.log(QUIET), MODEL)
-    return what, explained(what, model)
+    return Changed(d, _usual(known, telling) + away, telling, prior, math.log(QUIET), MODEL, ROUGH)
 
 
-def _far(what: Changed, best: Explanation) -> bool:
-    """Return whether changes are so far from what is usual that causes out of proportion must be weighed, too."""
-    many = len(what.d)
-    chance = float(what.d @ np.linalg.solve(what.spread(best), what.d))
-    return chance > many + CHANCE * math.sqrt(2 * many) or bool(
-        (what.d**2 > UNUSUAL**2 * np.diagonal(what.usual)).any()
-    )
+def _far(what: Changed) -> bool:
+    """Return whether changes are so far from what is usual that causes must be weighed out of proportion, too, and
+    several of them."""
+    many, calm = len(what.d), judged(what, Explanation())
+    if float(what.d @ np.linalg.solve(what.usual, what.d)) > many + CHANCE * math.sqrt(2 * many):
+        return True
+    likely = max((f.evidence + p for f, p in zip(_alone(what), what.prior, strict=True)), default=-math.inf)
+    return likely > calm.odds or bool((what.d**2 > UNUSUAL**2 * np.diagonal(what.usual)).any())
+
+
+def _alone(what: Changed) -> list[Weighed]:
+    """Return each cause weighed as the only one."""
+    spread = what.spread(Explanation())
+    return [weighed(r, spread, what.d) for r in what.responses]
 
 
 def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]]) -> list[Suspect]:
     """Return all suspects with their probabilities, and what else may be."""
-    first = weighed_beside(what, Explanation())
+    first = _alone(what)
     calm = normal(what.spread(Explanation()), what.d) + what.calm
     other = (
         normal(what.spread(best) * WILD**2, what.left(best))
@@ -174,7 +178,7 @@ def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]])
         shares = np.exp(odds - odds.max()) / np.exp(odds - odds.max()).sum()
         directions = [direction(f, r.cause, what.spread(best)) for f, r in zip(first, what.responses, strict=True)]
         causes = [r.cause for r in what.responses]
-        told = [_suspect(causes[n], f, float(shares[n]), alike(n, causes, directions)) for n, f in enumerate(first)]
+        told = [suspect(causes[n], f, float(shares[n]), alike(n, causes, directions)) for n, f in enumerate(first)]
         return [*told, *_rest(float(shares[-2]), float(shares[-1]))]
     top = np.logaddexp(best.odds, other)
     nothing, unexplained = float(np.exp(min(0.0, calm - np.logaddexp(top, calm)))), float(np.exp(other - top))
@@ -189,44 +193,6 @@ def _told(what: Changed, best: Explanation, groups: Sequence[Sequence[Suspect]])
 
 def _rest(nothing: float, unexplained: float) -> Sequence[Suspect]:
     return [Suspect("", NOTHING, nothing, {}, {}, {}), Suspect("", UNEXPLAINED, unexplained, {}, {}, {})]
-
-
-def _group(what: Changed, model: Modelled, best: Explanation, k: int) -> tuple[Suspect, ...]:
-    """Return the suspects of which one is the cause number k of an explanation, with the others set aside."""
-    rest = best.without(k)
-    less = together(what, None, rest, 1) if rest.numbers else Explanation()
-    found = weighed_beside(what, less)
-    others = sum(what.prior[n] for n in less.numbers)
-    odds = np.array([f.evidence + p + others + what.calm for f, p in zip(found, what.prior, strict=True)])
-    own = best.numbers[k]
-    found[own], odds[own] = best.found[k], best.odds
-    for n in sorted(range(len(odds)), key=lambda n: -odds[n])[: KEPT + 1]:
-        if n != own and n not in less.numbers and odds[n] > best.odds - 3 * CLOSE:
-            near = together(what, model, Explanation((*less.numbers, n), (*less.found, found[n]), less.beside))
-            found[n], odds[n] = near.found[-1], near.odds
-    odds = np.where([n in less.numbers for n in range(len(odds))], -math.inf, odds)
-    shares = np.exp(odds - odds.max()) / np.exp(odds - odds.max()).sum()
-    spread = what.spread(less)
-    causes = [r.cause for r in what.responses]
-    directions = [direction(f, c, spread) for f, c in zip(found, causes, strict=True)]
-    told = []
-    shares = np.where((shares < LEAST) & (np.arange(len(shares)) != own), 0.0, shares)
-    shares /= shares.sum()
-    for n in sorted(range(len(odds)), key=lambda n: (-shares[n], n != own)):
-        if not shares[n] and n != own:
-            continue
-        close = [
-            causes[m].part for m in range(len(odds)) if odds[m] > odds[n] - CLOSE and causes[m].part != causes[n].part
-        ]
-        like = dict.fromkeys((*alike(n, causes, directions), *close))
-        told.append(_suspect(causes[n], found[n], float(shares[n]), tuple(_along(what, like))))
-    return tuple(told)
-
-
-def _along(what: Changed, parts: Mapping[str, None]) -> list[str]:
-    """Return parts in the order of the causes, which is that along the beam."""
-    order = list(dict.fromkeys(r.cause.part for r in what.responses))
-    return sorted(parts, key=order.index)
 
 
 def _blind(what: Changed, possible: Sequence[Cause]) -> tuple[str, ...]:
@@ -263,12 +229,3 @@ def _prior(possible: Sequence[Cause]) -> list[float]:
         counts[cause.part] = counts.get(cause.part, 0) + 1
     rest = 1.0 - QUIET - OTHER
     return [math.log(rest / len(counts) / counts[c.part]) for c in possible]
-
-
-def _suspect(cause: Cause, found: Weighed, probability: float, like: tuple[str, ...]) -> Suspect:
-    names = [w.what for w in cause.ways]
-    sigma = np.sqrt(np.maximum(0, np.diagonal(found.spread))).tolist()
-    return Suspect(
-        cause.part, cause.kind, probability, dict(zip(names, map(float, found.size), strict=True)),
-        dict(zip(names, sigma, strict=True)), {w.what: w.unit for w in cause.ways}, like,
-    )  # fmt: skip

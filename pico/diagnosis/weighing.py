@@ -39,6 +39,20 @@ def weighed(response: Response, spread: Any, d: Any) -> Weighed:
     return at_size(response.cause, size, response.at(size), response.slope_at(size), spread, d)
 
 
+def modes(response: Response, spread: Any, d: Any) -> list[Weighed]:
+    """Return a cause weighed as by `weighed`, at its best size, and at the best on the other side of nothing: what dims
+    light does so whichever way a part went."""
+    first = weighed(response, spread, d)
+    if not response.cause.ways or response.cause.ways[0].one_sided:
+        return [first]
+    other = response.sizes @ first.size < 0
+    if not other.any():
+        return [first]
+    size = _likeliest(response, spread, d, other)
+    second = at_size(response.cause, size, response.at(size), response.slope_at(size), spread, d)
+    return [first, second] if size @ first.size < 0 and math.isfinite(second.evidence) else [first]
+
+
 def at_size(cause: Cause, size: Any, moved: Any, slope: Any, spread: Any, d: Any) -> Weighed:
     """Return a cause weighed near a size (k,), by what it does there (n,) and its slope (n, k): its size is usual for a
     fault, or, RARE, GREAT times as much."""
@@ -74,6 +88,16 @@ def one_sided(size: float, variance: float) -> float:
     return math.log(max(1e-300, math.erfc(-size / math.sqrt(2 * max(variance, 1e-30)))))
 
 
+def prior_at(cause: Cause, size: Any) -> Any:
+    """Return the standard deviations (k,) of the sizes of those faults of a cause, usual or GREAT, which one of a size
+    (k,) rather is."""
+    fault = np.array([w.fault for w in cause.ways])
+    far = float(((size / fault) ** 2).sum())
+    usual = math.log(1 - RARE) - far / 2
+    great = math.log(RARE) - len(fault) * math.log(GREAT) - far / GREAT**2 / 2
+    return fault * (GREAT if great > usual else 1.0)
+
+
 def share_of(found: Weighed, cause: Cause) -> float:
     """Return the logarithm of the share of faults that are as large as the prior of a cause takes it to be."""
     if not cause.ways:
@@ -81,8 +105,8 @@ def share_of(found: Weighed, cause: Cause) -> float:
     return math.log(RARE if found.prior[0] > cause.ways[0].fault * math.sqrt(GREAT) else 1 - RARE)
 
 
-def _likeliest(response: Response, spread: Any, d: Any) -> Any:
-    """Return the size (k,) that explains changes best: of those that are known, then bettered."""
+def _likeliest(response: Response, spread: Any, d: Any, among: Any = True) -> Any:
+    """Return the size (k,) that explains changes best: of those that are known, `among` these (m,), then bettered."""
     ways = response.cause.ways
     if not ways:
         return np.zeros(0)
@@ -94,7 +118,7 @@ def _likeliest(response: Response, spread: Any, d: Any) -> Any:
     for n, way in enumerate(ways):
         if way.one_sided:
             misfit = np.where(response.sizes[:, n] < 0, misfit + 1e9, misfit)
-    best = int(misfit.argmin())
+    best = int(np.where(among, misfit, np.inf).argmin())
     size, least = response.sizes[best], float(misfit[best])
     damping = 0.0
     for _ in range(_STEPS):

@@ -10,6 +10,26 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
 
+PLATEAU, CLIFF, FINE = 100, 8, 1000.0
+"""How many pixels that read the same, above so many counts that hardly any reads, are full below full scale; and the
+least full scale [count] at which noise tells equal pixels from full ones."""
+
+
+def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
+    """Return how many pixels of a picture are full, and what these read [count]: full scale, or less, if the pixels
+    overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau."""
+    import numpy as np
+
+    top = float(pixels.max())
+    if top >= full_scale:
+        return int(np.count_nonzero(pixels >= full_scale)), full_scale
+    if pixels.dtype.kind in "ui" and full_scale >= FINE and top > full_scale / 4:
+        same = int(np.count_nonzero(pixels == pixels.max()))
+        if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= top - CLIFF)) - same):
+            return same, top
+    return 0, top
+
+
 @dataclass(frozen=True, eq=False)
 class Frame:
     """A picture as a camera gave it.
@@ -56,10 +76,8 @@ class Frame:
 
     @property
     def saturated(self) -> int:
-        """How many pixels read full scale."""
-        import numpy as np
-
-        return int(np.count_nonzero(self.pixels >= self.full_scale)) if self.pixels.max() >= self.full_scale else 0
+        """How many pixels are full."""
+        return full_pixels(self.pixels, self.full_scale)[0]
 
     @property
     def refusal(self) -> str:
@@ -68,8 +86,8 @@ class Frame:
 
         if self.pixels.dtype.kind == "f" and not np.isfinite(self.pixels).all():
             return "some pixels are no numbers"
-        full = self.saturated
-        return f"{full} of {self.pixels.size} pixels read {self.full_scale:g}" if full else ""
+        full, level = full_pixels(self.pixels, self.full_scale)
+        return f"{full} of {self.pixels.size} pixels read {level:g}" if full else ""
 
     def at(self, column: float, row: float) -> tuple[float, float]:
         """Return a place in pixels (0, 0 is the middle of the pixel at the top left) as x, y [um] from the middle of

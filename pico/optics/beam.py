@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -78,10 +79,15 @@ class Beam:
         """k of its Gaussian [1/mm]: of the vacuum wavelength times its quality, in the medium."""
         return 2 * math.pi * self.index / (self.wavelength * self.quality)
 
+    @cached_property
+    def of_light(self) -> tuple[float, NDArray[np.float64]]:
+        """The power [mW] and the centroid (2,) [mm] from the chief ray."""
+        return _moments(self)
+
     @property
     def power(self) -> float:
         """The power [mW]."""
-        return moments(self)[0]
+        return self.of_light[0]
 
     @property
     def widths(self) -> tuple[float, float, float]:
@@ -101,6 +107,11 @@ def groups_of(beam: Beam) -> set[int]:
 
 
 def moments(beam: Beam) -> tuple[float, NDArray[np.float64]]:
+    """Return the power [mW] and the centroid (2,) [mm] from the chief ray; worked out once for a beam."""
+    return beam.of_light
+
+
+def _moments(beam: Beam) -> tuple[float, NDArray[np.float64]]:
     """Return the power [mW] and the centroid (2,) [mm] from the chief ray, in closed form.
 
     With A = k Im M, the overlap of waves i and j is exp(-k^2 B' A^-1 B / 4), B = b_i - conj(b_j), and its first moment

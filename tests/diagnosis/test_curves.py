@@ -29,6 +29,6 @@ def test_a_curve_is_what_tracing_each_size_would_give(nominal: Nominal, part: st
         assert value == pytest.approx(traced.value, abs=off + 1e-3 * abs(traced.value - still.value)), one.name
 
 
-def test_of_all_ways_axes_and_leaks_bend(nominal: Nominal) -> None:
+def test_of_all_ways_turns_leaks_and_retardances_bend(nominal: Nominal) -> None:
     ways = [w for c in causes(nominal.setup, tuple(nominal.poses)) for w in c.ways]
-    assert {w.what for w in ways if bends(w)} == {"zero:angle", "leak"}
+    assert {w.what for w in ways if bends(w)} == {"zero:angle", "roll", "leak", "retardance"}

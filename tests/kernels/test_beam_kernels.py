@@ -95,6 +95,15 @@ def test_a_saturated_picture_says_nothing_but_how_many_pixels_are(text: str) -> 
     assert measured("saturation", frame).value == {"saturated": full}
 
 
+def test_pixels_that_overflow_below_full_scale_are_full() -> None:
+    bright = picture(replace(ROUND, peak=3900), SHAPE, 1)
+    assert bright.pixels.max() < 4095 and not bright.saturated
+    cut = replace(bright, pixels=np.minimum(bright.pixels, 2600))
+    full = int((cut.pixels == 2600).sum())
+    assert cut.saturated == full
+    assert measured("power", cut).unknown == f"{full} of {400 * 480} pixels read 2600"
+
+
 @pytest.mark.parametrize("text", ["centroid", "d4sigma", "gaussian_fit", "power", "background | centroid"])
 def test_where_there_is_no_light_nothing_is_made_up(text: str) -> None:
     found = [measured(text, picture(replace(ROUND, peak=0), SHAPE, seed)) for seed in range(5)]

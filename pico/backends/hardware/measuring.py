@@ -13,6 +13,7 @@ from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.pictures import grayed
 from pico.backends.measured import Reading, measurement
 from pico.diagnostics import PicoError, error
+from pico.kernels.frame import full_pixels
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed
 from pico.model.measurement import Measurement
@@ -81,13 +82,13 @@ class Readers:
             bits=round(kind.number("bit_depth", "bit") or 12), full_well=kind.number("full_well", "") or 1e4,
             read_noise=kind.number("read_noise", "") or 0.0, black=kind.number("black_level", "count") or 0.0,
         )  # fmt: skip
-        gain, full = own.get("gain", 0.0), int((counts >= sensor.full_scale).sum())
+        gain, (full, level) = own.get("gain", 0.0), full_pixels(counts, sensor.full_scale)
         settings: dict[str, Value] = {
             "exposure": own.get("exposure", 1.0), "gain": gain, "pixel_size": sensor.pitch,
             "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
             "electrons_per_count": sensor.electrons_per_count(gain),
         }  # fmt: skip
-        said = f"{full} of {counts.size} pixels read {sensor.full_scale}" if full else ""
+        said = f"{full} of {counts.size} pixels read {level:g}" if full else ""
         values = {"peak": float(counts.max()), "mean": float(counts.mean())}
         return Reading(values, counts, settings=settings, saturated=said)
 

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
 
 UNUSUAL = 0.5
 """The probability that something happened from which a morning says so."""
+UNEXPLAINED = 5.0
+"""Standard deviations of what the causes leave of a change from which something else must have happened."""
 GONE = -9.0
 """The logarithm of the share of a reading that a camera which sees no light at all is taken to read."""
 Readable = tuple[Got | None, ...]
@@ -46,11 +48,12 @@ def compared(
     ways = unsure(survey.seen, survey.nominal, survey.moved)
     shifts = expected(survey.then, survey.nominal, survey.quantities, survey.moved, ways)
     now = tuple(_dark(read, q, a, b) for q, a, b in zip(survey.quantities, then, got, strict=True))
-    verdict, changes = _verdict(survey, then, now, shifts)
+    verdict, changes, left = _verdict(survey, then, now, shifts)
     reads = tuple(
-        _read(survey, q, a, b, change, s, read.why(q))
-        for q, a, b, change, s in zip(survey.quantities, then, got, changes, shifts, strict=True)
+        replace(_read(survey, q, a, b, change, s, read.why(q)), left=rest)
+        for q, a, b, change, s, rest in zip(survey.quantities, then, got, changes, shifts, left, strict=True)
     )
+    missed = tuple(one.name for one in reads if abs(one.left or 0.0) > UNEXPLAINED)
     moved = tuple(_moved(survey, n, records) for n in range(len(survey.moved)))
     lost = [q for q, a, b, s in zip(survey.quantities, then, now, shifts, strict=True)
             if a and not b and not s.why and read.why(q) != NOT_ASKED]  # fmt: skip
@@ -66,7 +69,7 @@ def compared(
         found, reference=reference.at, age=clock.seconds_between(reference.at, found.at),
         readings=reads, moved=moved, causes=causes, repairs=repairs, suspects=suspects,
         blind=verdict.blind if verdict else (),
-        unusual=changed or bool(lost) or any(m.by_hand for m in moved),
+        unexplained=missed, unusual=changed or bool(missed) or bool(lost) or any(m.by_hand for m in moved),
         repair=first[0] if first else unread(lost[0].shots[0].address) if lost else "",
     )  # fmt: skip
 
@@ -84,26 +87,26 @@ def _dark(read: Readings, wanted: Quantity, then: Got | None, now: Got | None) -
 
 def _verdict(
     survey: Survey, then: Readable, now: Readable, shifts: Sequence[Expected]
-) -> tuple[Verdict | None, list[float]]:  # fmt: skip
-    """Return what is suspected, and the change of each quantity in standard deviations of what is usual, nan of those
-    that are not compared."""
+) -> tuple[Verdict | None, list[float], list[float | None]]:  # fmt: skip
+    """Return what is suspected; the change of each quantity in standard deviations of what is usual, nan of those that
+    are not compared; and what the causes leave of it, None of those that are not weighed."""
     from pico.diagnosis.causes import causes
     from pico.diagnosis.choosing import chosen
     from pico.diagnosis.suspects import Compared, suspects
 
     both = enumerate(zip(survey.quantities, then, now, shifts, strict=True))
     told = {n: Compared(q, a, b, s.shift) for n, (q, a, b, s) in both if a and b and not s.why}
-    changes = [math.nan] * len(then)
+    changes, left = [math.nan] * len(then), list[float | None]([None] * len(then))
     if not told:
-        return None, changes
+        return None, changes, left
     read = sorted({s.address.partition(".")[0] for q in survey.quantities for s in q.shots})
     before = chosen(survey.then, survey.quantities).parts if survey.moved else ()
     parts = tuple(n for n in dict.fromkeys((*before, *survey.chosen.parts, *read)) if n in survey.nominal.poses)
     ways = unsure(survey.seen, survey.nominal, survey.moved)
     verdict = suspects(survey.nominal, [*told.values()], causes(survey.nominal.setup, parts), ways)
-    for n, change in zip(told, verdict.changes, strict=True):
-        changes[n] = change
-    return verdict, changes
+    for n, change, rest in zip(told, verdict.changes, verdict.left, strict=True):
+        changes[n], left[n] = change, rest if math.isfinite(rest) else None
+    return verdict, changes, left
 
 
 def _moved(survey: Survey, number: int, records: Sequence[JournalRecord]) -> Moved:

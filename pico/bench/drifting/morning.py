@@ -11,8 +11,8 @@ from pico.model.diff import Change
 if TYPE_CHECKING:
     from pico.bench.drifting.references import Reference
     from pico.diagnosis.choosing import Chosen
+    from pico.diagnosis.grouping import Suspect
     from pico.diagnosis.nominal import Nominal
-    from pico.diagnosis.suspects import Suspect
     from pico.model.observation import Observation
     from pico.model.plan import Plan
 
@@ -21,8 +21,9 @@ if TYPE_CHECKING:
 class Read:
     """One quantity of a morning: `then` and `now` in its coordinate (a logarithm for a share, see `law`), one standard
     deviation of what was read now, and the `change` in those of what is usual from day to day, beside what is
-    `expected` of it because parts stand elsewhere; `unknown`: why it could not be read, or not be compared. `unit`: of
-    the number itself, of a share too."""
+    `expected` of it because parts stand elsewhere; `left`: what the causes leave of that change, in its standard
+    deviations, None if it takes no part in finding them. `unknown`: why it could not be read, or not be compared.
+    `unit`: of the number itself, of a share too."""
 
     name: str
     law: str
@@ -33,6 +34,7 @@ class Read:
     change: float | None = None
     unknown: str = ""
     expected: float | None = None
+    left: float | None = None
 
 
 @dataclass(frozen=True)
@@ -57,7 +59,8 @@ class Morning:
     read, empty where there was nothing, and its `age` [s]. `moved`: what stands or is set otherwise than then.
     `causes`: each other thing that happened, as the suspects of which one did it, the likeliest first; `repairs` of
     them, in words, in their order. `suspects`: all suspects by probability. `blind`: parts of which no reading that
-    could be compared tells. `unusual`: whether something happened; `repair`: of the first thing. `accepted`: it is the
+    could be compared tells. `unexplained`: readings of whose change the causes leave so much that something else must
+    have happened. `unusual`: whether something happened; `repair`: of the first thing. `accepted`: it is the
     reference from now on. `set_back`: whether all that was set for it is known to stand where it stood."""
 
     run: str
@@ -71,6 +74,7 @@ class Morning:
     repairs: tuple[str, ...] = ()
     suspects: tuple[Suspect, ...] = ()
     blind: tuple[str, ...] = ()
+    unexplained: tuple[str, ...] = ()
     unusual: bool = False
     repair: str = ""
     lacks: tuple[str, ...] = ()

@@ -22,6 +22,7 @@ def measures(setup: Setup, component: str, measurable: str) -> bool:
 
 def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the frame, with its brightest pixel (`peak`) and its `mean` [counts]."""
+    from pico.kernels.frame import full_pixels
     from pico.optics.beam_table import decibel
     from pico.optics.instruments import camera_frame, sensor_of
     from pico.optics.light import out_of_step
@@ -43,7 +44,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         arrivals, part, stray=room_light(table), errors=table.setup.lab.sim.errors.sensor, seed=table.world.seed,
         number=round(table.world.clock * 1000),
     )  # fmt: skip
-    sensor, full = sensor_of(part), int((counts >= sensor_of(part).full_scale).sum())
+    sensor = sensor_of(part)
+    full, level = full_pixels(counts, sensor.full_scale)
     gain = decibel(part.values)
     return Reading(
         {"peak": float(counts.max()), "mean": float(counts.mean())},
@@ -53,5 +55,5 @@ def read(table: Table, component: str, measurable: str) -> Reading:
             "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
             "electrons_per_count": sensor.electrons_per_count(gain),
         },
-        saturated=f"{full} of {counts.size} pixels read {sensor.full_scale}" if full else "",
+        saturated=f"{full} of {counts.size} pixels read {level:g}" if full else "",
     )  # fmt: skip
