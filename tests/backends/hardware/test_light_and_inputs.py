@@ -477,22 +477,23 @@ def test_inputs_are_watched_while_light_is_let_out_and_not_after(monkeypatch: py
 
 def test_light_is_not_let_out_by_what_waited_while_a_stop_came() -> None:
     one, devices = session()
-    looks, stops = one._seen, list[asyncio.Task[Any]]()
+    looks, stops, began = one._seen, list[asyncio.Task[Any]](), list[Any]()
 
     async def stopped_meanwhile() -> Any:
-        stops.append(asyncio.create_task(one.stop()))  # it ends once this operation has ended
-        await asyncio.sleep(0)
+        if began and not stops:
+            stops.append(asyncio.create_task(one.stop()))  # it ends once this operation has ended
+            await asyncio.sleep(0)
         return await looks()
 
     one._seen = stopped_meanwhile  # type: ignore[method-assign]
 
     async def go() -> Any:
-        result = await one.execute(set_to("laser", "emission", True), "run/op1/1", lambda before: None)
+        result = await one.execute(set_to("laser", "emission", True), "run/op1/1", began.append)
         await asyncio.gather(*stops)
         return result
 
     result = asyncio.run(asyncio.wait_for(go(), 30))
-    assert result.outcome != "done" and result.error is not None
+    assert stops and result.outcome != "done" and result.error is not None
     assert True not in devices["laser.emission"].told
 
 
