@@ -14,6 +14,7 @@ FOLDER = ".pico"
 BENCHES = "benches"
 """The folder in `.pico` that holds a folder for each bench."""
 IGNORE = ".gitignore"
+_REPAIR = "`git status` says what is wrong; delete `.git` only if no repository belongs here"
 
 
 @dataclass(frozen=True)
@@ -36,25 +37,46 @@ class LabPlace:
 
 
 def lab_place(root: Path) -> LabPlace | None:
-    """Return where a lab lies, None outside Git; without git, for every command asks."""
+    """Return where a lab lies, None outside Git; without git, for every command asks. Raises PicoError for a `.git`
+    that cannot be read, as `git_folders` does."""
     root = Path(os.path.realpath(root))
-    for top in (root, *root.parents):
-        mark = top / ".git"
-        try:
-            own = (
-                mark
-                if mark.is_dir()
-                else (top / mark.read_text(encoding="utf-8", errors="surrogateescape").removeprefix("gitdir:").strip())
-            )
-        except (OSError, ValueError):
-            continue
-        try:
-            shared = (own / "commondir").read_text(encoding="utf-8", errors="surrogateescape").strip()
-        except (OSError, ValueError):
-            shared = "."
+    found = git_folders(root)
+    if found is None:
+        return None
+    top, _, common = found
+    return LabPlace(root, top, common)
+
+
+def git_folders(path: Path) -> tuple[Path, Path, Path] | None:
+    """Return the top of the working tree around `path`, Git's own folder of it, and the one that all worktrees share;
+    None if there is no `.git` in `path` or above.
+
+    Raises PicoError for a `.git` that is no repository. That is not the same as none: the folder may be a worktree
+    whose link is dead, and its benches are attached elsewhere.
+    """
+    path = Path(os.path.realpath(path))
+    top = next((folder for folder in (path, *path.parents) if os.path.lexists(folder / ".git")), None)
+    if top is None:
+        return None
+    mark = top / ".git"
+    try:
+        own = mark if mark.is_dir() else top / _text(mark).removeprefix("gitdir:").strip()
+        shared = _text(own / "commondir").strip() if os.path.lexists(own / "commondir") else "."
         common = Path(os.path.realpath(own / shared))
-        return LabPlace(root, top, common) if (common / "objects").is_dir() else None
-    return None
+        whole = os.path.lexists(own / "HEAD") and all(os.path.isdir(common / name) for name in ("objects", "refs"))
+    except (OSError, ValueError) as exc:
+        raise PicoError(error("git-unreadable", f"{mark} cannot be read", detail=str(exc), hint=_REPAIR)) from exc
+    if whole:
+        return top, own, common
+    if own == mark:
+        raise PicoError(error("git-unreadable", f"{mark} is no repository that Git can read", hint=_REPAIR))
+    text = f"{mark} names {own}, which is no repository that Git can read"
+    hint = f"if the repository was moved: `git worktree repair {top}` in it"
+    raise PicoError(error("git-unreadable", text, hint=f"{hint}; {_REPAIR}"))
+
+
+def _text(path: Path) -> str:
+    return path.read_text(encoding="utf-8", errors="surrogateescape")
 
 
 def own_folder(root: Path) -> Path:

@@ -40,7 +40,8 @@ def recorded(place: LabPlace, record: Mapping[str, Mapping[str, str]], name: str
 
 
 def is_of(folder: Path, place: LabPlace) -> bool:
-    """Return whether a folder still is this lab in a worktree of the same repository."""
+    """Return whether a folder still is this lab in a worktree of the same repository. Raises PicoError if its `.git`
+    cannot be read: it may have the bench."""
     found = lab_place(folder) if folder.is_dir() else None
     return found is not None and (found.common, found.inside) == (place.common, place.inside)
 

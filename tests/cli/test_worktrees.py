@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import shutil
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -209,3 +210,40 @@ def test_a_bench_that_is_taken_meanwhile_is_not_moved_by_who_waited(shel: Path, 
     with pytest.raises(PicoError) as caught:
         waiting.acquire("pico apply e2")
     assert caught.value.diagnostics[0].code == "not-attached"
+
+
+def _dead_link(shel: Path) -> None:
+    shel.rename(shel.parent / "moved")
+
+
+def _no_head(shel: Path) -> None:
+    (shel / ".git/worktrees/other/HEAD").unlink()
+
+
+def _no_objects(shel: Path) -> None:
+    (shel / ".git/objects").rename(shel / ".git/none")
+
+
+@pytest.mark.parametrize("breaks", [_dead_link, _no_head, _no_objects])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("set", "cam", "exposure=3", "-y"), ("--bench", "emulated", "set", "cam", "exposure=3", "-y"),
+        ("apply", "--auto-approve"), ("commit", "-m", "x"), ("git", "attach"), ("sim", "reset"),
+    ],
+)  # fmt: skip
+def test_a_git_folder_that_cannot_be_read_is_not_taken_for_none(
+    shel: Path, other: Path, pico: Pico, breaks: Callable[[Path], None], words: tuple[str, ...]
+) -> None:
+    breaks(shel)
+    said = " ".join(at(pico, other, *words, code=1).split())
+    assert "git-unreadable" in said and f"`git worktree repair {other}`" in said
+    assert not (other / ".pico").exists()
+
+
+def test_a_dead_link_below_another_repository_is_not_passed_over(shel: Path, pico: Pico) -> None:
+    inner = shel / "inner"
+    shutil.copytree(shel, inner, ignore=shutil.ignore_patterns(".git", "inner"))
+    (inner / ".git").write_text("gitdir: ../gone/.git/worktrees/inner\n")
+    assert "git-unreadable" in at(pico, inner, "set", "cam", "exposure=3", "-y", code=1)
+    assert not (inner / ".pico").exists()

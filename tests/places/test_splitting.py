@@ -139,7 +139,9 @@ def test_killed_at_any_moment_it_leaves_the_old_layout_or_the_new_one(old: Path,
 
 
 def test_what_a_repository_knows_of_the_benches_is_lifted(old: Path) -> None:
-    (old / ".git/objects").mkdir(parents=True)
+    for name in ("objects", "refs"):
+        (old / ".git" / name).mkdir(parents=True)
+    (old / ".git/HEAD").touch()
     known = old / ".git/pico"
     (known / "armed").mkdir(parents=True)
     (known / "bench.json").write_text('{".": ".."}')

@@ -28,6 +28,7 @@ from pico.history.writing.passage import Start, advance, go, shelve
 from pico.history.writing.recovery import leave_word, recover
 from pico.manifest.file_names import is_manifest
 from pico.manifest.load import bare_repository
+from pico.places.lab import git_folders
 
 MINUTE = timedelta(minutes=1)
 # How libgit2 names what it can't read, and what to tell the user.
@@ -66,6 +67,8 @@ class Repository:
 
         ceiling = os.environ.get("GIT_CEILING_DIRECTORIES", "")
         told = git.given(path)
+        if not told:
+            git_folders(path)  # which refuses one that is broken: libgit2 would pass over it, as if there were none
         found = told[0] if told else pygit2.discover_repository(str(path.absolute()), False, ceiling)
         if not found:
             return None
