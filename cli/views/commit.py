@@ -15,7 +15,8 @@ from .style import count, on_bench, paint
 def text(made: Committed) -> str:
     """Return the commit as `git commit` would show it, with what it changed on the table."""
     branch = made.branch or "detached HEAD"
-    head = f"[{branch} {paint('yellow', made.commit[:7])}] {made.message.splitlines()[0]}"
+    summary = made.message.strip().partition("\n")[0]
+    head = f"[{branch} {paint('yellow', made.commit[:7])}] {summary}"
     block = [head, *lines(made.changes)]
     if made.captured:
         found = sum(len(addresses) for addresses in (made.aligned or {}).values())

@@ -26,7 +26,15 @@ from pico.history.lab.contents import Contents, contents, nothing
 from pico.history.lab.contents import commit as committed
 from pico.history.lab.folder import LabFolder
 from pico.history.messages.default import default_message
-from pico.history.messages.trailers import BENCH, EVIDENCE, LAB, STATE, require_meta, values
+from pico.history.messages.trailers import (
+    BENCH,
+    EVIDENCE,
+    LAB,
+    STATE,
+    require_message,
+    require_meta,
+    values,
+)
 from pico.history.runs.benches import pending_elsewhere
 from pico.history.writing.in_progress import message_of, require_resolved
 from pico.model.address import Named, holds, read_addresses
@@ -127,6 +135,8 @@ class Commits:
         if mode not in get_args(CommitMode):
             hint = did_you_mean(str(mode)[:40], get_args(CommitMode))
             raise PicoError(error("request", f"there is no commit mode `{str(mode)[:40]}`", hint=hint))
+        if message is not None:
+            require_message(message)
         if mode == "planned":
             from pico.history.merge.checked import overlapping
 

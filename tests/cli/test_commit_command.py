@@ -51,6 +51,15 @@ def test_without_a_message_it_says_what_moved(built: Path, pico: Pico) -> None:
     assert git("show", "--numstat", "--format=", "HEAD", "--", "state").split()[:2] == ["3", "3"]
 
 
+@pytest.mark.parametrize("message", ["", "  ", "\n"])
+def test_an_empty_message_is_refused_before_anything_is_committed(built: Path, pico: Pico, message: str) -> None:
+    pico("set", "p1", "angle=1", "-y")
+    head, held = git("rev-parse", "HEAD"), (built / TABLE).read_text()
+    refused = pico("commit", "-m", message)
+    assert refused.code == 1 and "the message is empty: nothing was committed" in refused.err, refused
+    assert (git("rev-parse", "HEAD"), (built / TABLE).read_text()) == (head, held)
+
+
 def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pico) -> None:
     for change in (("cherry-pick", "E2-1"), ("revert", "C3")):
         assert pico(*change).code == 0

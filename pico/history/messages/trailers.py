@@ -66,6 +66,13 @@ def meta(message: str) -> dict[str, str]:
     return {key: value for key, sign, value in pairs if sign and _KEY.fullmatch(key)}
 
 
+def require_message(message: str) -> None:
+    """Raise PicoError for a message without a word: its trailers would become the subject."""
+    if not without_trailers(message).strip():
+        hint = 'say why: `pico commit -m "why"`; without -m the message says what changed'
+        raise PicoError(error("message", "the message is empty: nothing was committed", hint=hint))
+
+
 def require_meta(given: Mapping[str, str]) -> None:
     """Raise PicoError for keys and values that can't be recorded: all of them at once."""
     found = [
