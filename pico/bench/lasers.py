@@ -14,6 +14,7 @@ from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.model.arming import Arming, LaserClass, Licence
 from pico.model.observation import Observation, with_value
 from pico.model.record import record
+from pico.places.bench import BenchPlace
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import licensed, may_shine
 from pico.policy import arming as policy
@@ -169,12 +170,19 @@ class Lasers:
         return self.open(given, plan, Moves(self.opened).apply)
 
     def disarm(self, laser: str) -> bool:
-        """End what arms a laser, and shut it, whoever has the bench; return whether it is shut by now. Raises
-        PicoError for what is no laser."""
+        """End what arms a laser, and shut it, whoever has the bench and whichever worktree is attached to it; return whether
+        it is shut by now. Raises PicoError for what is no laser."""
         if laser not in policy.lasers(self.opened.setup):
             hint = did_you_mean(laser, policy.lasers(self.opened.setup))
             raise PicoError(error("unknown-component", f"there is no laser `{laser[:40]}`", hint=hint))
-        return self.opened.wait(self.opened.edge.disarm(laser, person_of(self.opened) or "somebody"))
+        opened, person = self.opened, person_of(self.opened) or "somebody"
+        place = opened.place.attached if isinstance(opened.place, BenchPlace) else opened.place
+        if place == opened.place:
+            return opened.wait(opened.edge.disarm(laser, person))
+        from pico.bench.opened import Opened
+
+        with Opened.open(place.root, bench=place, fidelity=opened.fidelity) as there:  # another worktree's, see `pico stop`
+            return there.wait(there.edge.disarm(laser, person))
 
 
 def _lets(licence: Licence | None, of: LaserClass) -> str:

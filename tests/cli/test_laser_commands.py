@@ -172,6 +172,21 @@ def test_disarming_shuts_at_once_and_asks_nobody(guarded: Path, pico: Pico) -> N
     assert pico("set", "laser.shutter", "open", "-y").code == 7
 
 
+@pytest.mark.parametrize("waived", [True, False])
+def test_disarming_in_another_worktree_shuts_the_bench_where_it_is(shel: Path, pico: Pico, waived: bool) -> None:
+    if not waived:
+        edit(shel / "lab.yaml", WAIVED, ROLES + "  #")
+        subprocess.run(["git", "-C", str(shel), "config", "user.name", "Ada Lovelace"], check=True)
+    assert pico("apply", "--yes").code == 0
+    assert waived or pico("laser", "arm", "laser", "-y").code == 0
+    other = shel.parent / "other"
+    subprocess.run(["git", "-C", str(shel), "worktree", "add", "-q", str(other), "-b", "second"], check=True)
+    assert row(pico)["emits"]
+    shut = pico("-C", str(other), "laser", "disarm", "laser")
+    assert shut.code == 0 and not row(pico)["emits"], shut
+    assert not (other / ".pico/benches").exists()
+
+
 def test_an_arming_given_beforehand_opens_nothing_and_lets_a_later_run_open_it(guarded: Path, pico: Pico) -> None:
     assert pico("apply", "--yes").code == 0
     assert pico("laser", "arm", "laser", "--unattended", "--hours", "8", "-y").code == 0
