@@ -119,7 +119,7 @@ class Session:
 
             standing[:] = [Standing(bench.place)]
             self.wire(bench.root)
-        self.tell((*_lost(place), *take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
+        self.tell((*lost_warning(place), *take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
@@ -223,7 +223,7 @@ class Session:
         return answer.strip().lower() in ("y", "yes")
 
 
-def _lost(place: Place) -> tuple[Diagnostic, ...]:
+def lost_warning(place: Place) -> tuple[Diagnostic, ...]:
     """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused."""
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench

@@ -10,7 +10,7 @@ import typer
 from pico.diagnostics import ExitCode, PicoError
 
 from ..arguments import Yes, group
-from ..session import Session
+from ..session import Session, lost_warning
 from ..views import benches as benches_view
 from ..views import meant as meant_view
 from ..views import proposal as view
@@ -44,6 +44,7 @@ def list_(context: typer.Context) -> None:
     from pico.edge.network.asking import ask
     from pico.history.runs.benches import bench_states
     from pico.manifest.load import find_lab
+    from pico.places.bench import BenchPlace
 
     session = Session.of(context)
     root = find_lab(session.folder)
@@ -54,7 +55,9 @@ def list_(context: typer.Context) -> None:
             found[name] = ask(one, "GET", "/benches")
         except PicoError as exc:  # the others are there
             away.append(exc)
-    session.show(benches_view, bench_states(root), found, session.place(root))
+    states = bench_states(root)
+    session.show(benches_view, states, found, session.place(root))
+    session.tell(tuple(d for state in states for d in lost_warning(BenchPlace(root, state.bench))))
     session.tell([replace(d, severity="warning") for exc in away for d in exc.diagnostics])
 
 

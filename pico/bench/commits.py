@@ -45,6 +45,7 @@ from pico.model.plan import Plan
 from pico.model.state import LabState, home_state, references_of, state_from_json
 from pico.model.trace.report import Captured, Committed
 from pico.model.trace.run import GoalStood
+from pico.places.lost import refusal
 from pico.planning.aligned_values import GoalMet
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
 
@@ -82,9 +83,9 @@ class Commits:
 
     def _seen(self) -> tuple[Observation, PicoError | None]:
         """Look at the bench; what stands there while somebody moves it is no state that anybody wanted: nothing of it
-        counts then, and this says who."""
+        counts then, and this says who; nor does what a bench shows that was lost."""
         before, seen = in_use(self.opened, WAIT), self.opened.observe()
-        moved = before or in_use(self.opened, WAIT)
+        moved = before or in_use(self.opened, WAIT) or refusal(self.opened.place)
         return (replace(seen, components={}) if moved else seen), moved
 
     def _used(self) -> bool:

@@ -14,7 +14,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import writing
 from pico.places.bench import BenchPlace, folder_in
 from pico.places.lab import lab_place, make_own_folder
-from pico.places.lost import lost_bench
+from pico.places.lost import moved_to, refusal
 from pico.places.record import is_of, note, recorded, recording
 
 _STAYS = ("holder.json", "incoming", "replaced")
@@ -29,20 +29,20 @@ def require_attached(bench: BenchPlace) -> None:
         return
     with recording(place) as record:
         there = recorded(place, record, bench.name)
-        if there in (None, place.root) and (lost := lost_bench(bench)):
-            raise PicoError(lost, ExitCode.LOCKED)
+        if lost := refusal(bench):
+            raise lost
         if there is None:
             _begin(bench)  # first: a bench that the record knows, and that is not there, was lost
             note(place, record, bench.name)
         elif there != place.root:
-            raise PicoError(_elsewhere(bench, there, gone=not is_of(there, place)), ExitCode.LOCKED)
+            raise PicoError(_elsewhere(bench, there), ExitCode.LOCKED)
 
 
 def attach(bench: BenchPlace) -> Path | None:
     """Attach the worktree of a lab to a bench, which moves there with its simulated table and journal.
 
-    Call it with the bench locked where it was. Returns the folder of the lab that had it until now; None if there was
-    none, or if that is gone with all that it kept. Raises PicoError outside a repository, and if files can't be moved.
+    Call it with the bench locked where it was. Returns the folder of the lab that had it until now, or to which
+    that was moved; None if there was none, or if that is gone with all that it kept. Raises PicoError outside a repository, and if files can't be moved.
     """
     place = lab_place(bench.root)
     if place is None:
@@ -51,7 +51,9 @@ def attach(bench: BenchPlace) -> Path | None:
         raise PicoError(error("git-none", text, hint=hint))
     with recording(place) as record:
         before = recorded(place, record, bench.name)
-        there = before if before != place.root and before is not None and is_of(before, place) else None
+        if before is not None and not is_of(before, place):
+            before = moved_to(place, bench.name)
+        there = before if before != place.root else None
         if there is not None:
             _bring(folder_in(there, bench.name), folder_in(place.root, bench.name))
         else:
@@ -109,10 +111,7 @@ def _contents(folder: Path) -> list[Path]:
     return [path for path in folder.iterdir() if path.name not in _STAYS] if folder.is_dir() else []
 
 
-def _elsewhere(bench: BenchPlace, there: Path, *, gone: bool) -> Diagnostic:
-    if gone:
-        text = f"the bench `{bench.name}` was attached to {there}, which is gone, with its state and journal"
-        return error("not-attached", text, hint="`pico git attach` takes it: every part then stands at home")
+def _elsewhere(bench: BenchPlace, there: Path) -> Diagnostic:
     hint = f"work there (`pico -C {there} ...`), or bring the bench here: `pico git attach`; looking is always possible"
     text = f"this worktree only plans on `{bench.name}`: that bench is attached to {there}"
     return error("not-attached", text, hint=hint)

@@ -1,4 +1,5 @@
-"""A bench that Git's own folder knows, and whose folder is gone: by `git clean -fdx`, or since the lab was moved.
+"""A bench that Git's own folder knows, and whose folder is gone: by `git clean -fdx`, with a worktree that was deleted,
+or since the lab or its worktree was moved.
 
 What PICO knew of it alone is gone with it: runs that no commit has, the bench's own Lab, what hands hold. So that is
 said before anything moves, and a person decides.
@@ -10,10 +11,10 @@ import os
 from pathlib import Path
 
 from pico.base.state_files import JOURNAL, LOCK, OWN_LAB, WORLD
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.places.bench import BenchPlace
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
-from pico.places.record import SHARED, Record, read_record
+from pico.places.record import SHARED, Record, is_of, read_record, worktrees
 from pico.places.seals import sealed_labs
 
 _TELLING = tuple(file.name for file in (LOCK, JOURNAL, WORLD, OWN_LAB))
@@ -24,17 +25,36 @@ def lost_bench(bench: BenchPlace) -> Diagnostic | None:
     """Return that what was kept of a bench is gone, or stayed behind, and what to do; None if it is there, or if it was
     never used. Raises PicoError as `BenchPlace.folder` does."""
     lab = lab_place(bench.root)
-    if lab is None or any((bench.own / name).exists() for name in _TELLING):
+    if lab is None:
         return None
     record = read_record(lab)
     known = record.get(lab.inside, {})
     there = known.get(bench.name, known.get(SHARED))
-    if there is not None and os.path.normpath(lab.common / there) != str(lab.root):
-        return None  # it is another worktree's
+    if there is not None and (other := Path(os.path.normpath(lab.common / there))) != lab.root:
+        return None if is_of(other, lab) else _unattached(bench, other, moved_to(lab, bench.name))
+    if any((bench.own / name).exists() for name in _TELLING):
+        return None
     if there is not None or bench.name in sealed_labs(lab).get(lab.inside, {}):
         return _gone(bench)
     left = _left_behind(bench, lab, record)
     return None if left is None else _stayed(bench, left)
+
+
+def moved_to(lab: LabPlace, name: str) -> Path | None:
+    """Return the folder of the lab that has what was kept of a bench whose worktree is gone: `git worktree move` takes
+    it along. None if no worktree has it, or several may."""
+    names = [file.name for file in (JOURNAL, WORLD, OWN_LAB)]
+    found = [
+        root for root in worktrees(lab) if any((root / FOLDER / BENCHES / name / file).exists() for file in names)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def refusal(place: object) -> PicoError | None:
+    """Return the error (exit code LOCKED) that the folder of `place`, a bench of this machine, is gone: what it shows
+    then is where parts begin, not where they stand. None if it is there."""
+    lost = lost_bench(place) if isinstance(place, BenchPlace) else None
+    return None if lost is None else PicoError(lost, ExitCode.LOCKED)
 
 
 def _left_behind(bench: BenchPlace, lab: LabPlace, record: Record) -> Path | None:
@@ -47,6 +67,16 @@ def _left_behind(bench: BenchPlace, lab: LabPlace, record: Record) -> Path | Non
         if (folder / FOLDER / BENCHES / bench.name).is_dir():
             return folder
     return None
+
+
+def _unattached(bench: BenchPlace, there: Path, moved: Path | None) -> Diagnostic:
+    command = f"pico --bench {bench.name} git attach"
+    text = f"the bench `{bench.name}` was attached to {there}, which is gone"
+    if moved is None:
+        hint = f"`{command}` takes it: every part then stands at home"
+        return error("not-attached", f"{text}, with its state and journal", hint=hint)
+    text = f"{text}; its state and journal are in {moved / FOLDER / BENCHES / bench.name}"
+    return error("not-attached", text, hint=f"`{command}` continues with them")
 
 
 def _gone(bench: BenchPlace) -> Diagnostic:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import fcntl
 import os
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from copy import deepcopy
 from pathlib import Path
 
@@ -44,6 +44,16 @@ def is_of(folder: Path, place: LabPlace) -> bool:
     cannot be read: it may have the bench."""
     found = lab_place(folder) if folder.is_dir() else None
     return found is not None and (found.common, found.inside) == (place.common, place.inside)
+
+
+def worktrees(place: LabPlace) -> tuple[Path, ...]:
+    """Return the folders of the lab in the worktrees of its repository that are there now, the main one first."""
+    tops = [place.common.parent] if place.common.name == ".git" else []
+    for link in sorted(place.common.glob("worktrees/*/gitdir")):
+        with suppress(OSError):
+            mark = link.read_text(encoding="utf-8", errors="surrogateescape").strip()
+            tops.append(Path(os.path.realpath(link.parent / mark)).parent)
+    return tuple(top / place.inside for top in tops if (top / place.inside).is_dir())
 
 
 def note(place: LabPlace, record: Record, name: str) -> None:

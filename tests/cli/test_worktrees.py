@@ -137,6 +137,44 @@ def test_a_bench_whose_worktree_is_gone_is_free_and_that_is_said(shel: Path, oth
     at(pico, shel, "apply", "e1", "--auto-approve")
 
 
+def test_a_bench_whose_worktree_was_deleted_is_never_captured_and_every_look_warns(
+    shel: Path, other: Path, pico: Pico
+) -> None:
+    at(pico, other, "apply", "e1", "--auto-approve")
+    shutil.rmtree(other)
+    for words in (("status",), ("drift",), ("verify",), ("bench",), ("plan",)):
+        answer = pico(*words)
+        assert f"attached to {other}, which is gone" in " ".join(answer.err.split()), (words, answer)
+    head, table = git(shel, "rev-parse", "HEAD"), (shel / "state/table.yaml").read_text()
+    for words in (("commit", "--capture", "-m", "x"), ("capture",), ("commit", "-m", "x", "--allow-empty")):
+        assert "which is gone" in at(pico, shel, *words, code=5)
+    assert (git(shel, "rev-parse", "HEAD"), (shel / "state/table.yaml").read_text()) == (head, table)
+    at(pico, shel, "commit", "--planned", "--allow-empty", "-m", "x")
+    assert "Pico-Evidence: planned" in git(shel, "log", "-1", "--format=%B")
+
+
+def test_a_bench_that_git_clean_deleted_is_not_captured(shel: Path, pico: Pico) -> None:
+    at(pico, shel, "apply", "e1", "--auto-approve")
+    shutil.rmtree(shel / ".pico")
+    for words in (("commit", "--capture", "-m", "x"), ("capture",)):
+        assert "what PICO kept of the bench `sim` is gone" in " ".join(at(pico, shel, *words, code=5).split())
+    assert not git(shel, "status", "--porcelain", "state")
+
+
+@pytest.mark.parametrize("here", [True, False])
+def test_a_worktree_that_git_moved_keeps_its_bench(shel: Path, other: Path, pico: Pico, here: bool) -> None:
+    at(pico, other, "apply", "e1", "--auto-approve")
+    new = shel.parent / "new"
+    git(shel, "worktree", "move", str(other), str(new))
+    place = new if here else shel
+    refused = " ".join(at(pico, place, "set", "cam", "exposure=3", "-y", code=5).split())
+    assert f"its state and journal are in {new}/.pico/benches/sim" in refused, refused
+    assert f"`pico -C {place} --bench sim git attach` continues with them" in refused
+    at(pico, place, "--bench", "sim", "git", "attach")
+    assert "Nothing to do" in at(pico, place, "plan", "e1")
+    at(pico, place, "undo", "-y")
+
+
 def test_a_repository_that_was_moved_or_copied_keeps_its_bench(shel: Path, pico: Pico) -> None:
     at(pico, shel, "apply", "e1", "--auto-approve")
     copy = shel.parent / "copy"
