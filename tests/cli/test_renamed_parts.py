@@ -33,6 +33,15 @@ def applied(folder: Path) -> None:
     assert main(("commit", "-m", "base")) == 0
 
 
+def turned(folder: Path) -> None:
+    """After that p2 was turned by a command, and committed."""
+    from pico_cli.main import main
+
+    applied(folder)
+    assert main(("set", "p2", "angle=12", YES)) == 0
+    assert main(("commit", "--capture", "-m", "turned")) == 0
+
+
 def renamed(folder: Path) -> None:
     """After that p2 is called pol_out, the bench has adopted it, and it is committed."""
     from pico_cli.main import main
@@ -85,6 +94,19 @@ def test_blame_goes_through_the_rename(word: str, lab: Path, pico: Pico) -> None
     assert leaves["angle"]["component"] == "pol_out" and leaves["angle"]["last"]["name"] == "C1"
     if "." not in word:
         assert leaves["pose"]["last"]["name"] == "C3"
+
+
+def test_blame_says_which_run_set_what_is_renamed_since(brought: Brought, shel: Path, pico: Pico) -> None:
+    def kinds(word: str) -> dict[str, tuple[str, str | None]]:
+        leaves = pico("blame", word, "--json").data["leaves"]
+        return {leaf["tunable"]: (leaf["last"]["how"]["kind"], leaf["last"]["how"].get("cause")) for leaf in leaves}
+
+    brought(turned)
+    before = kinds("p2")
+    assert before["angle"] == ("run", "single")
+    rename(shel)
+    git(shel, "commit", "-q", "-a", "-m", "p2 is pol_out")
+    assert kinds("pol_out") == kinds("p2") == before
 
 
 @pytest.mark.parametrize("word", ["pol_out", "p2"])

@@ -95,9 +95,9 @@ def blame(root: Path, what: Sequence[str] = (), *, at: str | None = None, histor
     try:
         found = walker.answer(commit) if commit else Answer()
         whole = found if at is not None else with_edits(walker, root, commit, found)
-        names = _renaming(root) if what else {}
+        names = _renaming(root)
         rows = _chosen(whole.rows, [_called(names, word, whole.rows) for word in what])
-        turns = _Turns(walker, whole, rows.values(), history=history)
+        turns = _Turns(walker, whole, rows.values(), names, history=history)
         leaves = tuple(turns.leaf(address, row) for address, row in rows.items())
         parts = dict.fromkeys(leaf.component for leaf in leaves) if what else ()
         noted = {part: _notes(walker, root, commit if at else None, part, names) for part in parts}
@@ -175,7 +175,10 @@ def _unknown(component: str, tunable: str, mine: Iterable[Address], rows: Iterab
 class _Turns:
     """Puts nodes, commits and runs together."""
 
-    def __init__(self, walker: Walker, whole: Answer, rows: Iterable[BlamedRow], *, history: bool) -> None:
+    def __init__(
+        self, walker: Walker, whole: Answer, rows: Iterable[BlamedRow], names: Renaming, *, history: bool
+    ) -> None:
+        self.former = {now: tuple(old for old, new in names.items() if new == now) for now in names.values()}
         self.history, self.shallow = history, walker.shallow
         nodes = [n for row in rows for n in (row.node.chain() if history else (row.node,))]
         names = {n.commit for n in nodes if n.commit}
@@ -196,8 +199,8 @@ class _Turns:
         commit = self.commits[node.commit]
         return LeafChange(
             commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
-            summary=commit.summary, how=how(commit, self.runs.get(commit.id, ()), at, after), before=before,
-            after=after, text=text, earlier=commit.id in self.shallow,
+            summary=commit.summary, before=before,
+            how=how(commit, self.runs.get(commit.id, ()), at, after, self.former.get(at[0], ())), after=after, text=text, earlier=commit.id in self.shallow,
         )  # fmt: skip
 
 

@@ -91,15 +91,18 @@ def _about(a: Any, b: Any) -> bool:
     return isinstance(a, dict) != isinstance(b, dict) or a == b
 
 
-def how(commit: Commit, runs: Sequence[RunBrief], at: Address, value: Any = None) -> How:
-    """Return how `commit`, which brought `runs` along, came to the leaf `at` that it changed to `value`.
+def how(commit: Commit, runs: Sequence[RunBrief], at: Address, value: Any = None, former: Sequence[str] = ()) -> How:
+    """Return how `commit`, which brought `runs` along, came to the leaf `at` that it changed to `value`. `former`: the
+    names that its component may have had then.
 
     A run counts only where it left about that value: a rebase or cherry-pick takes runs along to another one.
     """
     evidence, told = _said(commit.message)
-    changing = max((r for r in runs if at in r.changes), key=lambda run: run.order, default=None)
-    counts = changing is not None and at not in changing.afterwards and evidence != "planned"
-    if changing is not None and counts and changing.brought(at, value):
+    called = (at, *((name, at[1]) for name in former))
+    named = [(run, one) for run in runs for one in called if one in run.changes]
+    changing, then = max(named, key=lambda found: found[0].order, default=(None, at))
+    counts = changing is not None and then not in changing.afterwards and evidence != "planned"
+    if changing is not None and counts and changing.brought(then, value):
         return changing.how
     if len(commit.parents) > 1:
         return How(kind="merge", evidence=evidence)
@@ -108,7 +111,7 @@ def how(commit: Commit, runs: Sequence[RunBrief], at: Address, value: Any = None
     if counts:
         return How(kind="edited", evidence=evidence)
     said = values(commit.message, HAND)
-    if said and ".".join(at) not in said[-1].split(", "):
+    if said and not {".".join(one) for one in called} & set(said[-1].split(", ")):
         return How(kind="edited", evidence=evidence)
     return How(kind="hand" if said or runs or told else "commit", evidence=evidence)
 
