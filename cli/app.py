@@ -161,6 +161,7 @@ def run(words: list[str]) -> int:
     try:
         group = build()
         with group.make_context("pico", list(words)) as context:
+            context.meta["pico.words"] = tuple(words)
             try:
                 code = group.invoke(context)
             finally:  # also of a command that was not understood, and made no session

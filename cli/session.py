@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shlex
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -15,6 +16,7 @@ from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR, opener
 from pico.diagnostics import PicoError, error
 from pico.places.layout import take_report
 
+from .at_once.complete import SHARED
 from .garbage import loaded
 from .hints import OPTIONS, flags_of, with_flags_in
 from .terminal.output import flags, write
@@ -30,6 +32,8 @@ if TYPE_CHECKING:
 
     from .standing import Standing
 
+YES = ("--auto-approve", "--yes", "-y")
+"""The options of a command that asks nobody."""
 standing: list[Standing] = []
 """How the lab stood before this command was to change something."""
 
@@ -60,8 +64,8 @@ class Session:
     told: list[Diagnostic] = field(default_factory=list, compare=False)
     headline: list[str] = field(default_factory=list, compare=False)
     """On which bench this command is, until that was said."""
-    intended: list[str] = field(default_factory=list, compare=False)
-    """The command that is to be approved, in words."""
+    intended: list[Callable[[], Callable[[], None]]] = field(default_factory=list, compare=False)
+    """Keeps this call, once it is approved, and returns what to call at its end; see `calls`."""
 
     @classmethod
     def of(cls, context: typer.Context) -> Session:
@@ -100,8 +104,11 @@ class Session:
         hint = "`--bench sim`, `--bench emulated` or `--bench hardware` names one of this lab"
         raise PicoError(error("remote", text, hint=hint))
 
-    def bench(self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False) -> Bench:
-        """Open the lab of this session; `writing`: to move something, or change files or history. Raises PicoError."""
+    def bench(
+        self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False, calls: bool = True
+    ) -> Bench:
+        """Open the lab of this session; `writing`: to move something, or change files or history. What is called is
+        kept then, see `calls`, unless the command does that later itself. Raises PicoError."""
         from pico.bench.bench import Bench
         from pico.manifest.load import find_lab
 
@@ -123,7 +130,25 @@ class Session:
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
+        if writing and calls:
+            self.calls(bench)
         return bench
+
+    def calls(self, bench: Bench) -> None:
+        """Keep what somebody called, until the command ends, if it is one to be approved, which may start a run: at once
+        with `--auto-approve`, else as soon as somebody says yes. A command that is killed before its run begins leaves
+        that."""
+        if self.context is None or "auto_approve" not in self.context.params:
+            return
+        command = shlex.join(_own_words(self.context.meta.get("pico.words", ())))
+        self.intended[:] = [lambda: bench.recovery.intend(command)]
+        if self.context.params["auto_approve"]:
+            self.intend()
+
+    def intend(self) -> None:
+        """Keep what was called: it is approved."""
+        if self.context is not None and self.intended:
+            self.context.call_on_close(self.intended.pop()())
 
     def name_bench(self) -> None:
         """Say on which bench this command is, unless that was said, or a plan says it at its head."""
@@ -210,6 +235,7 @@ class Session:
     def confirm(self, question: str, auto_approve: bool) -> bool:
         """Ask, unless told not to, and return whether the answer is yes. Raises PicoError where nobody can answer."""
         if auto_approve:
+            self.intend()
             return True
         if sys.stdin is None or not sys.stdin.isatty():
             hint = "add --auto-approve (or -y) where nobody sits at a terminal"
@@ -220,7 +246,25 @@ class Session:
         except (EOFError, OSError):  # the end of what was piped in, or of the terminal
             answer = ""
             write(sys.stdout, "")
-        return answer.strip().lower() in ("y", "yes")
+        if answer.strip().lower() not in ("y", "yes"):
+            return False
+        self.intend()
+        return True
+
+
+def _own_words(words: Sequence[str]) -> list[str]:
+    """Return the words of a call without those that say on which bench it is, and without `-y`: hints add the first,
+    and the second a person."""
+    kept, rest = list[str](), iter(words)
+    for word in rest:
+        if word == "--":
+            return [*kept, word, *rest]
+        if (name := word.partition("=")[0]) in SHARED:
+            if SHARED[name] and "=" not in word:
+                next(rest, None)
+        elif word not in YES:
+            kept.append(word)
+    return kept
 
 
 def lost_warning(place: Place) -> tuple[Diagnostic, ...]:

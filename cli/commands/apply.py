@@ -24,7 +24,7 @@ from ..arguments import (
     aligning,
     scope_of,
 )
-from ..runs.approving import approve, called
+from ..runs.approving import approve
 from ..session import Session
 
 HEADING = "The main job"
@@ -83,7 +83,6 @@ def apply(
         "targets": scope_of(context),
         "exclude": exclude or (),
     }
-    called(session, bench, " ".join(["apply", *([what] if what else [])]), auto_approve)
     plan = bench.plans.plan_of(what, folder=session.folder, **options)
     if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:

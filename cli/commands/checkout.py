@@ -11,7 +11,7 @@ from pico.places.attachment import require_attached
 from pico.places.bench import BenchPlace
 
 from ..arguments import Fidelity, LockTimeout, Scoped, Yes, scope_of
-from ..runs.approving import called, declined, show
+from ..runs.approving import declined, show
 from ..runs.running import execute
 from ..session import Session
 from ..views import checkout as view
@@ -54,7 +54,6 @@ def checkout(
     before = bench.history.here()
     if files_only:
         return _files(session, bench, what, before)
-    called(session, bench, " ".join(["checkout", revision, *(["--", *named] if named else [])]), auto_approve)
     plan = bench.plans.checkout_plan(what)
     goal = bench.history.goal_name(plan) if isinstance(what, str) else view.goal(bench.history.name_of(revision))
     if code := show(session, bench, plan, auto_approve, head=bench.history.head_name(), goal=goal):

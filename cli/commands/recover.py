@@ -9,7 +9,7 @@ import typer
 from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, LockTimeout, Yes
-from ..runs.approving import approve, called
+from ..runs.approving import approve
 from ..session import Session
 
 HEADING = "The main job"
@@ -38,7 +38,6 @@ def recover(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True)
-    called(session, bench, "recover", auto_approve)
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
             bench.recovery.answer(key, done=was_done)

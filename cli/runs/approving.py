@@ -61,24 +61,12 @@ def going_back(
     Says what was killed before it moved anything. Raises PicoError if that leaves open which run is meant, and nobody
     is asked. `run`: the one that was named; `of`: whose it is.
     """
-    bench = session.bench(fidelity, speed, writing=True)
+    bench = session.bench(fidelity, speed, writing=True, calls=False)
     if auto_approve and run is None:
         bench.recovery.require_named(command, of)
     session.tell(bench.recovery.killed_early())
-    called(session, bench, command, auto_approve)
+    session.calls(bench)
     return bench
-
-
-def called(session: Session, bench: Bench, command: str, approved: bool) -> None:
-    """Keep what somebody called and approved, until the command ends; not yet, where they are still to be asked."""
-    session.intended[:] = [command]
-    if approved:
-        _intend(session, bench)
-
-
-def _intend(session: Session, bench: Bench) -> None:
-    if session.context is not None and session.intended:
-        session.context.call_on_close(bench.recovery.intend(session.intended.pop()))
 
 
 def declined(
@@ -90,7 +78,7 @@ def declined(
     if plan.operations:
         session.say("")
     if not asked or session.confirm(asked, auto_approve):
-        _intend(session, bench)
+        session.intend()
         return ExitCode.DONE
     session.say(otherwise)
     return ExitCode.ERROR
@@ -108,9 +96,6 @@ def single(
 ) -> int:
     """Plan one operation, show it, ask, and run it."""
     bench = session.bench(fidelity, speed, writing=not dry_run)
-    if not dry_run:
-        words = [f"{key}={value}" for key, value in arguments.items()]
-        called(session, bench, " ".join(["do", component, primitive, *words]), auto_approve)
     plan = bench.plans.single(component, primitive, arguments)
     asked = arguments if primitive == "set" else ("pose",) if primitive in ("move", "stow") else ()
     off: tuple[Change, ...] = ()
