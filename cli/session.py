@@ -135,9 +135,9 @@ class Session:
         return bench
 
     def calls(self, bench: Bench) -> None:
-        """Keep what somebody called, until the command ends, if it is one to be approved, which may start a run: at once
-        with `--auto-approve`, else as soon as somebody says yes. A command that is killed before its run begins leaves
-        that."""
+        """Keep what somebody called, until the command ends, if it is one to be approved, which may start a run: at
+        once with `--auto-approve`, else as soon as somebody says yes. A command that is killed before its run begins
+        leaves that."""
         if self.context is None or "auto_approve" not in self.context.params:
             return
         command = shlex.join(_own_words(self.context.meta.get("pico.words", ())))

@@ -138,6 +138,7 @@ def _optimize(
     if terminal:
         write(sys.stdout, "", end="", over=True)
     dark = bench.measurements.dark() if found.measurements and not found.last else ""
+    dark = "shorten the exposure, or put a filter before the detector" if dark and found.saturated else dark
     began: Mapping[str, float] = next(
         (op.arguments["from"] for op in plan.operations if op.primitive == "optimize"), {}
     )

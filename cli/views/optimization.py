@@ -50,7 +50,8 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup, began: Mapping[str, f
         c for c in found.columns if c != "time" and c not in chosen.goal.tunables and not c.endswith("_sigma")
     ]:
         texts = chosen.goal.expressions[0] if name == "objective" else name
-        cells = [value(of[name], "", of.get(f"{name}_sigma")) if name in of else "dark" for of in (first, last)]
+        none = "saturated" if found.saturated else "dark"
+        cells = [value(of[name], "", of.get(f"{name}_sigma")) if name in of else none for of in (first, last)]
         near = found.tolerance.get(name)
         goal = f"to {(chosen.goal.reach or {})[name]:g} within {near:g}" if near and chosen.goal.reach else ""
         rows.append([texts, *cells, goal])

@@ -66,6 +66,7 @@ class Optimized:
     points: Mapping[str, Any] | None = None
     stages: tuple[Mapping[str, Any], ...] = ()
     solution: Mapping[str, float] | None = None
+    saturated: bool = False
 
 
 def optimized(events: Sequence[Event]) -> Optimized:

@@ -170,8 +170,10 @@ class Lasers:
         return self.open(given, plan, Moves(self.opened).apply)
 
     def disarm(self, laser: str) -> bool:
-        """End what arms a laser, and shut it, whoever has the bench and whichever worktree is attached to it; return whether
-        it is shut by now. Raises PicoError for what is no laser."""
+        """End what arms a laser, and shut it, whoever has the bench and whichever worktree is attached to it.
+
+        Returns whether it is shut by now. Raises PicoError for what is no laser.
+        """
         if laser not in policy.lasers(self.opened.setup):
             hint = did_you_mean(laser, policy.lasers(self.opened.setup))
             raise PicoError(error("unknown-component", f"there is no laser `{laser[:40]}`", hint=hint))
@@ -181,7 +183,7 @@ class Lasers:
             return opened.wait(opened.edge.disarm(laser, person))
         from pico.bench.opened import Opened
 
-        with Opened.open(place.root, bench=place, fidelity=opened.fidelity) as there:  # another worktree's, see `pico stop`
+        with Opened.open(place.root, bench=place, fidelity=opened.fidelity) as there:  # in another worktree
             return there.wait(there.edge.disarm(laser, person))
 
 

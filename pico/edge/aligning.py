@@ -196,6 +196,8 @@ class Aligning:
             "measurements": run.measured, "first": _numbers(outcome.first), "last": _numbers(outcome.last),
             "columns": columns, "tolerance": {n: t for n, t in run.problem.tolerance.items() if t},
         }  # fmt: skip
+        if outcome.saturated:
+            found["saturated"] = True
         if former:
             found["stages"] = list(former)
         if outcome.solution is not None:

@@ -17,6 +17,7 @@ from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, So
 STOPPED = "it was stopped"
 """Why it ended where somebody asked for that."""
 LIGHT_LOST = "the light was lost"
+TOO_MUCH = "there was too much light to measure"
 LOST = 6
 """Readings without light, one after the other, after light was seen, at which it gives up."""
 _FEW = 8
@@ -76,7 +77,8 @@ class Tried:
 class Outcome:
     """How a loop ended. `first`, `last`: the results with which it began and ended (None: not measured); `tried`: all
     that was measured, in order; `met`: the goal is met; `why` it ended; `fault`: what failed; `solution`: where the
-    algorithm's model has the best, where the tunables were left by an offset from there."""
+    algorithm's model has the best, where the tunables were left by an offset from there; `saturated`: there was too much light to measure where it
+    began."""
 
     first: Mapping[str, float] | None
     last: Mapping[str, float] | None
@@ -86,6 +88,7 @@ class Outcome:
     fault: str = ""
     seconds: float = 0.0
     solution: Solution | None = None
+    saturated: bool = False
 
 
 Loop = Generator[Ask, Reading, Outcome]
@@ -113,14 +116,18 @@ class _Walk:
         self.now = self.longest = 0.0
         self.lost, self.fault, self.unknown, self.glaring, self.missed = 0, "", "", False, False
         self.solution: Solution | None = None
+        self.glared = False  # whether there was too much light to measure where it began
 
     def run(self, refine: Making, acquire: Making | None) -> Loop:
         self.first = yield from self._ask(self.problem.start)
-        while not (why := self._over()) and (self.missed or (self.glaring and acquire is not None)):
+        whole = acquire is not None or self.problem.aim == "maximize"  # a peak is at least as bright as where it began
+        while not (why := self._over()) and (self.missed or (self.glaring and whole)):
             if self.lost >= LOST:
+                self.glared = self.glaring
                 told = "nothing was measured where it began" if self.missed else "there is too much light to begin with"
                 return (yield from self._end(Short(told)))
             self.first = yield from self._ask(self.problem.start)
+        self.glared = self.glaring
         if not why and self.good is None and acquire is not None:
             plain = replace(self.problem, offset=None)
             why = yield from self._stage(acquire(plain), until_light=True)
@@ -172,7 +179,8 @@ class _Walk:
             STOPPED: self.stopping(),
             f"the budget of {limits.measurements} measurements is spent": spends > limits.measurements,
             f"the budget of {limits.seconds:g} s is spent": slow and spent > 0,
-            f"{LIGHT_LOST} {self.lost} times in a row": self.good is not None and self.lost >= LOST,
+            f"{TOO_MUCH if self.glaring else LIGHT_LOST} {self.lost} times in a row": self.good is not None
+            and self.lost >= LOST,
         }
         return Short(next((why for why, so in ends.items() if so), ""))
 
@@ -184,7 +192,8 @@ class _Walk:
             self.began = before = reading.time
         self.now = reading.time
         self.longest = max(self.longest, self.now - before)
-        self.unknown, self.glaring, self.missed = reading.unknown, reading.glaring, reading.missed
+        if measure:  # the way back reads nothing, and says nothing of the light
+            self.unknown, self.glaring, self.missed = reading.unknown, reading.glaring, reading.missed
         if reading.fault:
             self.fault = self.fault or reading.fault
         tried = Tried({**point, **reading.values}, reading.time, why)
@@ -238,7 +247,7 @@ class _Walk:
         begun = first.result if first and self._believed(first.result) else None
         return Outcome(
             begun, last.result if believed and last else None, tuple(self.tried), met, str(why), self.fault,
-            self.now - (self.began or 0.0),
+            self.now - (self.began or 0.0), saturated=self.glared,
         )  # fmt: skip
 
     def _weighed(self, first: Tried, why: str) -> Generator[Ask, Reading, str]:
@@ -285,6 +294,7 @@ class _Walk:
             gone = "nothing better was found than where it began"
             if not self._believed(self.tried[-1].result):
                 gone = "there was no light any more at the best"
+                gone = "there was too much light at the best" if self.glaring else gone
             elif self._worse(first, 2.0):
                 gone = "the best is worse now than where it began"
             yield from self._ask(begun, measure=len(self.tried) < self.limits.measurements, why="start")

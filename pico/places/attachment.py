@@ -41,8 +41,9 @@ def require_attached(bench: BenchPlace) -> None:
 def attach(bench: BenchPlace) -> Path | None:
     """Attach the worktree of a lab to a bench, which moves there with its simulated table and journal.
 
-    Call it with the bench locked where it was. Returns the folder of the lab that had it until now, or to which
-    that was moved; None if there was none, or if that is gone with all that it kept. Raises PicoError outside a repository, and if files can't be moved.
+    Call it with the bench locked where it was. Returns the folder of the lab that had it until now, or to which that
+    was moved; None if there was none, or if that is gone with all that it kept. Raises PicoError outside a repository,
+    and if files can't be moved.
     """
     place = lab_place(bench.root)
     if place is None:

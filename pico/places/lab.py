@@ -63,7 +63,7 @@ def git_folders(path: Path) -> tuple[Path, Path, Path] | None:
         own = mark if mark.is_dir() else top / _text(mark).removeprefix("gitdir:").strip()
         shared = _text(own / "commondir").strip() if os.path.lexists(own / "commondir") else "."
         common = Path(os.path.realpath(own / shared))
-        whole = os.path.lexists(own / "HEAD") and all(os.path.isdir(common / name) for name in ("objects", "refs"))
+        whole = os.path.lexists(own / "HEAD") and all((common / name).is_dir() for name in ("objects", "refs"))
     except (OSError, ValueError) as exc:
         raise PicoError(error("git-unreadable", f"{mark} cannot be read", detail=str(exc), hint=_REPAIR)) from exc
     if whole:

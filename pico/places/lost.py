@@ -44,9 +44,7 @@ def moved_to(lab: LabPlace, name: str) -> Path | None:
     """Return the folder of the lab that has what was kept of a bench whose worktree is gone: `git worktree move` takes
     it along. None if no worktree has it, or several may."""
     names = [file.name for file in (JOURNAL, WORLD, OWN_LAB)]
-    found = [
-        root for root in worktrees(lab) if any((root / FOLDER / BENCHES / name / file).exists() for file in names)
-    ]
+    found = [root for root in worktrees(lab) if any((root / FOLDER / BENCHES / name / file).exists() for file in names)]
     return found[0] if len(found) == 1 else None
 
 

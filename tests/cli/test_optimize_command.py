@@ -88,6 +88,22 @@ def test_a_goal_of_the_lab_is_one_operation_with_its_points_beside_the_run(place
     assert again.code == 0 and "makes up for" not in again.out and "operation" not in again.out
 
 
+def test_a_saturated_camera_is_not_called_dark_and_the_part_goes_back(
+    placed: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    async def stays(*_: object) -> bool:
+        return False
+
+    monkeypatch.setattr("pico.edge.aligning._Run._ranged", stays)  # as a camera whose exposure cannot be set
+    pico("set", "p2.angle", "70", "--yes")
+    before = pico("get", "p1.angle", "--json").data["values"]["angle"]["value"]
+    answer = pico("optimize", "peak", "p1", "cam", "--yes")
+    said = " ".join(answer.out.split())
+    assert answer.code == 6 and "cam.power is saturated" in said and "shorten the exposure" in said, said
+    assert "dark" not in said and "lost" not in said
+    assert pico("get", "p1.angle", "--json").data["values"]["angle"]["value"] == pytest.approx(before, abs=1e-6)
+
+
 def test_a_crossed_polarizer_is_found_from_a_saturated_start(placed: Path, pico: Pico) -> None:
     pico("set", "p2.angle", "70", "--yes")
     answer = pico("optimize", "null", "p2", "cam", "--yes", "--json")

@@ -211,6 +211,29 @@ def test_too_much_light_is_not_looked_for_on_a_spiral() -> None:
     assert all(ask.point == CENTRE.start for ask in asks)
 
 
+@pytest.mark.parametrize("algorithm", ["nelder_mead", "rcds", "peak"])
+def test_a_peak_that_saturates_is_left_where_it_began_and_named(algorithm: str) -> None:
+    """Only places with less light than where it began can be measured."""
+    one = replace(PEAK, variables=BOX[:1])
+
+    def read(point: Point, number: int) -> Reading | dict[str, float]:
+        if abs(point["m.tip"]) < 0.6:
+            return Reading(unknown="cam is saturated", glaring=True, time=float(number))
+        return {"pd.power": math.exp(-(point["m.tip"] ** 2)), "pd.power_sigma": 1e-3}
+
+    found, asks = driven(one, algorithm, read)
+    assert "too much light to begin with (cam is saturated)" in found.why and found.saturated and not found.met
+    assert asks[-1].point == one.start and found.last is None
+
+
+def test_light_that_becomes_too_much_is_not_called_lost() -> None:
+    def read(point: Point, number: int) -> Reading | dict[str, float]:
+        return Reading(unknown="cam is saturated", glaring=True, time=float(number)) if number > 4 else bump(point)
+
+    found, _ = driven(PEAK, "nelder_mead", read)
+    assert "there was too much light to measure 6 times in a row (cam is saturated)" in found.why
+
+
 def test_an_axis_that_fails_on_the_way_to_the_best_is_told_too() -> None:
     """The third reading is the best, and nobody comes back to it."""
 

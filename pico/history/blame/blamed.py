@@ -181,8 +181,8 @@ class _Turns:
         self.former = {now: tuple(old for old, new in names.items() if new == now) for now in names.values()}
         self.history, self.shallow = history, walker.shallow
         nodes = [n for row in rows for n in (row.node.chain() if history else (row.node,))]
-        names = {n.commit for n in nodes if n.commit}
-        self.commits: Mapping[str, Commit] = walker.repository.commits(names)
+        wanted = {n.commit for n in nodes if n.commit}
+        self.commits: Mapping[str, Commit] = walker.repository.commits(wanted)
         self.runs = whole.runs
 
     def leaf(self, at: Address, row: BlamedRow) -> BlamedLeaf:
@@ -200,7 +200,8 @@ class _Turns:
         return LeafChange(
             commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
             summary=commit.summary, before=before,
-            how=how(commit, self.runs.get(commit.id, ()), at, after, self.former.get(at[0], ())), after=after, text=text, earlier=commit.id in self.shallow,
+            how=how(commit, self.runs.get(commit.id, ()), at, after, self.former.get(at[0], ())), after=after, text=text,
+            earlier=commit.id in self.shallow,
         )  # fmt: skip
 
 
