@@ -75,6 +75,15 @@ def test_what_was_never_applied_is_not_undone_by_a_commit(built: Path, pico: Pic
     assert pico("commit", "-m", "e2 as it is").code == 0
 
 
+def test_what_keeps_edits_before_a_checkout_works_for_those_never_applied(built: Path, pico: Pico) -> None:
+    edit(built / TABLE, P2, "      x: 530\n")
+    refused = " ".join(pico("checkout", "e1", "--files-only").err.split())
+    assert '`pico commit --planned -m "why"` keeps the edits' in refused, refused
+    assert pico("commit", "-m", "why").code == 1
+    assert pico("commit", "--planned", "-m", "why").code == 0
+    assert pico("checkout", "e1", "--files-only").code == 0
+
+
 def test_what_an_undo_or_a_script_left_is_committed(built: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("GIT_COMMITTER_DATE", "2026-01-05T12:00:00Z")  # all that follows is later by whole seconds
     for angle in ("5", "6", "7"):

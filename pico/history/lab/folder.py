@@ -483,5 +483,6 @@ def edited(paths: tuple[str, ...]) -> Diagnostic:
     return error(
         "edited",
         f"edits that are not committed: {', '.join(paths[:3])}{' and others' if len(paths) > 3 else ''}",
-        hint='`pico commit -m "why"` keeps the edits, `pico stash` shelves them, `git restore .` drops them',
+        hint='`pico commit --planned -m "why"` keeps the edits (without --planned those that were applied), '
+        "`pico stash` shelves them, `git restore .` drops them",
     )

@@ -115,7 +115,8 @@ def _refuse_edited(folder: LabFolder, changes: tuple[Change, ...]) -> None:
     edited = {(c.component, c.tunable): c for c in folder.diff("HEAD")}
     lost = [edited[c.component, c.tunable] for c in changes if (c.component, c.tunable) in edited]
     if lost:
-        hint = '`pico commit -m "why"` keeps the edit, `pico checkout HEAD -- COMPONENT` drops it; others may stay'
+        keep = '`pico commit --planned -m "why"` keeps the edit'
+        hint = f"{keep}, `pico checkout HEAD -- COMPONENT` drops it; others may stay"
         raise PicoError(
             [
                 error(
