@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 import sys
 import traceback
 from functools import cache
@@ -25,6 +26,7 @@ from .hints import flags_of
 from .session import Session, standing
 from .terminal.output import flags, unsaid, write
 
+_REVISION = re.compile(r"\b(REV|REVISION|BASE)\b|A\.\.B")
 EVERYWHERE = "Every command takes -C DIR, --json, --debug, --backend NAME, --emulate, --bench NAME: `pico --help`."
 
 
@@ -137,11 +139,29 @@ def _named(argument: Any) -> None:
     argument.get_help_record = lambda ctx: (word, argument.help)
 
 
+def _refuse_empty(argument: Any) -> None:
+    """Let an argument that takes a revision refuse an empty word, as an empty variable of a shell leaves it: it does
+    not mean what leaving it out means."""
+    inner = argument.callback
+
+    def check(context: Any, parameter: Any, value: Any) -> Any:
+        for word in (value,) if isinstance(value, str) else value or ():
+            if isinstance(word, str) and not word.strip():
+                from pico.history.git.revisions import require_name
+
+                require_name(word)
+        return inner(context, parameter, value) if inner else value
+
+    argument.callback = check
+
+
 def _share(command: Any, options: list[Any]) -> None:
     taken = {word for p in command.params for word in p.opts}
     for argument in command.params:
         if argument.param_type_name == "argument":
             _named(argument)
+            if _REVISION.search(argument.metavar or argument.name.upper()):
+                _refuse_empty(argument)
     command.params = [*command.params, *(o for o in options if not taken & set(o.opts))]
     command.help = (command.help or "").replace("Examples:\n", "\b\nExamples:\n")
     command.epilog = EVERYWHERE

@@ -122,3 +122,17 @@ def test_a_branch_that_one_of_two_remotes_has_is_taken(clone: Path, pico: Pico) 
     assert "→ origin/e2 (E2-3" in pico("plan", "e2").out
     assert pico("checkout", "e2", "--files-only").code == 0
     assert git(clone, "rev-parse", "--abbrev-ref", "HEAD") == "e2"
+
+
+EMPTY = (
+    ("plan", ""), ("apply", "", "-y"), ("checkout", "", "-y"), ("show", ""), ("verify", ""), ("log", ""), ("diff", ""),
+    ("diff", "HEAD", ""), ("check", ""), ("runs", "list", ""), ("merge", ""), ("revert", ""), ("plan", "  "),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize("words", EMPTY)
+def test_an_empty_word_is_no_revision(shel: Path, pico: Pico, words: tuple[str, ...]) -> None:
+    """As `pico plan "$BRANCH"` of a shell in which BRANCH is not set."""
+    refused = pico(*words)
+    assert refused.code == 1 and "an empty word names no revision" in refused.err, refused
+    assert not refused.out and not (shel / ".pico/benches").exists()

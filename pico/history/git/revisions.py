@@ -50,6 +50,7 @@ def find(handle: Any, root: Path, revision: str) -> Any:
     """
     import pygit2
 
+    require_name(revision)
     name = "@{-1}" if revision == "-" else revision
     if not _FULL_ID.fullmatch(name):
         _refuse_ambiguous(handle, name)
@@ -65,6 +66,13 @@ def find(handle: Any, root: Path, revision: str) -> Any:
         return handle[git.run(root, asked, doing=f"find {revision}").strip()]
     except (PicoError, KeyError, ValueError):
         raise PicoError(_unknown(handle, revision)) from None
+
+
+def require_name(revision: str) -> None:
+    """Raise PicoError for a revision without a name, as an empty variable of a shell leaves one."""
+    if not revision.strip():
+        hint = "name a branch, a tag or a commit; leave the word out to mean the manifest or HEAD"
+        raise PicoError(error("revision", "an empty word names no revision", hint=hint))
 
 
 def spelled(handle: Any, revision: str) -> str:
