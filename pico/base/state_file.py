@@ -172,6 +172,9 @@ class StateFile:
     def unreadable(self, path: Path, cause: str) -> Diagnostic:
         """Return that the disk or its permissions withhold the file at `path`."""
         hint = f"let this user read it (`ls -l {quoted(path)}`), then call the command again"
+        if path.is_dir():
+            away = f"mv {quoted(path)} {quoted(path.with_name(f'{path.name}.old'))}"
+            hint = f"move that folder away (`{away}`); {self.way_on(path)}"
         return error(self.code, f"{path} cannot be read: {cause.lower()}", detail=self._detail, hint=hint)
 
     @property
