@@ -145,6 +145,11 @@ class Session:
         if self.context.params["auto_approve"]:
             self.intend()
 
+    @property
+    def command(self) -> str:
+        """What is called, without its arguments: `pico move`."""
+        return "pico" if self.context is None else self.context.command_path
+
     def intend(self) -> None:
         """Keep what was called: it is approved."""
         if self.context is not None and self.intended:

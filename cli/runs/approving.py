@@ -47,7 +47,7 @@ def approve(
     if code := declined(session, bench, plan, auto_approve):
         return code
     if detach:
-        session.show(left_view, bench.moves.leave(plan, **options))
+        session.show(left_view, bench.moves.leave(plan, holder=session.command, **options))
         return ExitCode.DONE
     return execute(session, bench, plan, record, **options)
 

@@ -74,6 +74,7 @@ def ran(
         from pico.twin.snapshot import Recording
 
         recording = Recording()
+    options = {"holder": session.command, **options}
     run = bench.run(plan, **{**options, **({"recording": recording} if recording else {})})
     screen = Screen(session, Progress(plan))
     events: list[Event] = []

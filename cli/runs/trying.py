@@ -75,7 +75,7 @@ def bring(session: Session, bench: Bench, plan: Plan) -> tuple[float, int]:
     if not plan.operations:
         bench.recovery.settle()
         return 0.0, ExitCode.DONE
-    run = bench.run(plan.because("bisect"))
+    run = bench.run(plan.because("bisect"), holder=session.command)
     screen = Quiet(session, Progress(plan))
     watched(run, screen.show)
     screen.clear()

@@ -75,10 +75,16 @@ class Recovery:
         memory = self._memory()
         refuse_in_use(self.opened)
         last = _last(self.opened.place, memory)
-        if run is not None and not (run and fits(run, last.run)):
-            text = f"only the last run can be taken up again, and that is {called(memory, last)}"
-            raise PicoError(error("not-last", text, hint=f"`pico resume {last.run}`, or `pico undo {run}`"))
         sought = _cut_goals(memory, last.run)
+        if run is not None and not (run and fits(run, last.run)):
+            named = [one.run for one in memory.runs() if run and fits(run, one.run)]
+            if not named:
+                text = f"this bench has no run `{run[:40]}`"
+                raise PicoError(error("no-run", text, hint="`pico runs` lists them; `pico resume` means the last"))
+            text = f"only the last run can be taken up again, and that is {called(memory, last)}"
+            goes_on = last.outcome != "done" or sought
+            hint = f"{f'`pico resume {last.run}` continues that; ' if goes_on else ''}`pico runs show {named[-1]}`"
+            raise PicoError(error("not-last", text, hint=f"{hint} says what became of the other"))
         if last.outcome == "done" and not sought:
             text = f"there is nothing to resume: the last run ({last.run}) did all that it was to do"
             nothing = error("nothing-to-resume", text, hint=_goes_on(memory))

@@ -15,6 +15,7 @@ import pytest
 from commanding import Pico
 
 from pico.bench.bench import Bench
+from pico.edge.lease import BenchLock
 from pico.runs.journal import Journal
 
 PROGRAM = """
@@ -173,3 +174,28 @@ def test_nothing_to_stop_or_to_undo_is_said(shel: Path, pico: Pico) -> None:
     assert "Nothing moves" in pico("stop").out
     assert pico("undo").code == pico("resume").code == 1
     assert "nobody asks about x" in pico("recover", "--done", "x").err
+
+
+def test_resume_of_another_run_hints_at_what_works(shel: Path, pico: Pico) -> None:
+    assert pico("set", "cam", "exposure=3", "-y").code == 0
+    assert pico("set", "cam", "exposure=4", "-y").code == 0
+    first = pico("runs", "list", "--json").data["runs"][-1]["document"]["id"]
+    unknown = pico("resume", "nope", "-y")
+    assert unknown.code == 1 and "no run `nope`" in unknown.err and "`pico undo nope`" not in unknown.err
+    older = " ".join(pico("resume", first, "-y").err.split())
+    assert f"`pico runs show {first}`" in older and "`pico resume " not in older
+    assert pico("runs", "show", first).code == 0
+
+
+def test_a_run_has_the_name_of_the_command_that_began_it(shel: Path, pico: Pico, monkeypatch: Any) -> None:
+    heard = list[str]()
+    acquire = BenchLock.acquire
+
+    def hears(self: BenchLock, holder: str) -> Any:
+        heard.append(holder)
+        return acquire(self, holder)
+
+    monkeypatch.setattr(BenchLock, "acquire", hears)
+    for words in (("set", "cam", "exposure=3"), ("do", "cam", "set", "exposure=4"), ("undo",), ("apply", "e1")):
+        assert pico(*words, "-y").code == 0
+    assert heard == ["pico set", "pico do", "pico undo", "pico apply"]

@@ -199,9 +199,8 @@ class _Turns:
         commit = self.commits[node.commit]
         return LeafChange(
             commit=commit.id, name=commit.label, author=commit.author.partition(" <")[0], time=commit.time.isoformat(),
-            summary=commit.summary, before=before,
-            how=how(commit, self.runs.get(commit.id, ()), at, after, self.former.get(at[0], ())), after=after, text=text,
-            earlier=commit.id in self.shallow,
+            summary=commit.summary, before=before, after=after, text=text, earlier=commit.id in self.shallow,
+            how=how(commit, self.runs.get(commit.id, ()), at, after, self.former.get(at[0], ())),
         )  # fmt: skip
 
 
