@@ -126,7 +126,14 @@ class Session:
 
             standing[:] = [Standing(bench.place)]
             self.wire(bench.root)
-        self.tell((*lost_warning(place), *take_report(bench.root), *bench.folder.recovered, *bench.folder.proposed))
+        self.tell(
+            (
+                *lost_warning(place, chosen=not (self.at or self.backend)),
+                *take_report(bench.root),
+                *bench.folder.recovered,
+                *bench.folder.proposed,
+            )
+        )
         if self.lock_timeout:
             with waiting("Waiting for the bench"):
                 bench.wait_until_free(self.lock_timeout)
@@ -272,10 +279,13 @@ def _own_words(words: Sequence[str]) -> list[str]:
     return kept
 
 
-def lost_warning(place: Place) -> tuple[Diagnostic, ...]:
-    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused."""
+def lost_warning(place: Place, *, chosen: bool = False) -> tuple[Diagnostic, ...]:
+    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused. `chosen`: no
+    option named it; then also if another bench is gone, for the worktree may have chosen that one."""
     from pico.places.bench import BenchPlace
-    from pico.places.lost import lost_bench
+    from pico.places.lost import lost_bench, others_lost
 
-    found = lost_bench(place) if isinstance(place, BenchPlace) else None
-    return (replace(found, severity="warning"),) if found else ()
+    if not isinstance(place, BenchPlace):
+        return ()
+    found = [lost_bench(place), *(others_lost(place) if chosen else ())]
+    return tuple(replace(one, severity="warning") for one in found if one)

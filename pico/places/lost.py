@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from pico.base.state_files import JOURNAL, LOCK, OWN_LAB, WORLD
+from pico.base.state_files import CHOSEN, JOURNAL, LOCK, OWN_LAB, WORLD
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.places.bench import BenchPlace
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
@@ -46,6 +46,21 @@ def moved_to(lab: LabPlace, name: str) -> Path | None:
     names = [file.name for file in (JOURNAL, WORLD, OWN_LAB)]
     found = [root for root in worktrees(lab) if any((root / FOLDER / BENCHES / name / file).exists() for file in names)]
     return found[0] if len(found) == 1 else None
+
+
+def others_lost(bench: BenchPlace) -> tuple[Diagnostic, ...]:
+    """Return what was lost of other benches of this worktree, if it also lost which bench its commands mean: they may
+    have meant another one than `bench`."""
+    lab = lab_place(bench.root)
+    if lab is None or CHOSEN.path(bench.root / FOLDER).exists():
+        return ()
+    names = sorted(name for name in read_record(lab).get(lab.inside, {}) if name not in (SHARED, bench.name))
+    lost = [
+        name for name in names if (found := lost_bench(BenchPlace(bench.root, name))) and found.code == "lost-bench"
+    ]
+    text = "what PICO kept of the bench `{0}` is gone, too, and with it which bench commands mean: this one means `{1}`"
+    hint = "`pico bench use {0}` chooses it again"
+    return tuple(error("lost-bench", text.format(name, bench.name), hint=hint.format(name)) for name in lost)
 
 
 def refusal(place: object) -> PicoError | None:

@@ -304,3 +304,27 @@ def test_a_lab_that_was_moved_without_its_bench_is_told_where_that_is(lab: Path,
     shutil.move(lab / ".pico/benches", inner / ".pico")
     assert pico("-C", str(inner), "plan").code == 0
     assert len(runs(pico, "-C", str(inner))) == 1
+
+
+def test_after_git_clean_a_choice_that_is_gone_is_named(lab: Path, pico: Pico) -> None:
+    done(pico, "bench", "use", "emulated")
+    done(pico, "set", "cam", "exposure=9", "-y")
+    subprocess.run(["git", "clean", "-fdxq"], cwd=lab, check=True)
+    said = " ".join(pico("status").err.split())
+    assert "the bench `emulated` is gone, too" in said and "this one means `sim`" in said, said
+    assert "`pico bench use emulated` chooses it again" in said
+    assert "is gone" not in pico("--bench", "sim", "status").err
+
+
+def test_a_choice_that_is_a_folder_hints_at_what_works(lab: Path, pico: Pico) -> None:
+    path = lab / ".pico/chosen.json"
+    path.mkdir(parents=True)
+    refused = " ".join(pico("status").err.split())
+    assert f"`mv {path} {path}.old`" in refused and "`pico bench use sim`" in refused
+    path.rename(f"{path}.old")
+    done(pico, "bench", "use", "sim")
+    assert pico("status").code == 0
+
+
+def test_a_word_that_names_no_bench_lists_those_of_the_docs(lab: Path, pico: Pico) -> None:
+    assert "known: `emulated`, `hardware`, `sim`" in pico("bench", "use", "").err

@@ -67,7 +67,7 @@ def named_bench(root: Path, remotes: Remotes, word: str) -> Place:
         return Far(remotes.named[remote], lab, bench, root, remotes.page[0] if remote == PAGE and remotes.page else "")
     name = SIMULATOR if word == LOCAL else word
     if name not in shipped() and name not in (devices := known_devices()):
-        hint = did_you_mean(word, [*devices, LOCAL]) or "LAB/BENCH, `sim`, `emulated` or `hardware`"
+        hint = did_you_mean(word, devices) or "LAB/BENCH, `sim`, `emulated` or `hardware`"
         raise PicoError(error("remote", f"`{word[:80]}` names no bench", hint=hint))
     return BenchPlace(root, name)
 
