@@ -299,7 +299,8 @@ class Try:
                 break
             for way in ways:
                 done = self._said(way)
-                if done.code == 2 and "--yes" in done.text and not any(flag in way for flag in FLAGS):
+                asks = any(flag in done.text for flag in FLAGS)
+                if done.code and asks and not any(flag in way for flag in FLAGS):
                     done = self._said(f"{way} --yes")
             answer = self._said(f"pico {case.command}")
             if answer.code == ref.answer.code or not self._is_named(answer.text):
