@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 import sqlite3
 import subprocess
+import tempfile
 from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
@@ -79,6 +81,16 @@ def _rounded(value: Any) -> Any:
     return round(value, 3) if isinstance(value, float) else value
 
 
+def document(data: bytes) -> Any:
+    """Return what a JSON file holds beside its checksum; None if it is none."""
+    try:
+        found = json.loads(data)
+        found.pop("sha256", None)
+    except (ValueError, AttributeError):
+        return None
+    return found
+
+
 def runs_of(bench: Path) -> frozenset[str]:
     """Return the runs in the journal of a bench, none if it can't be read."""
     try:
@@ -86,6 +98,21 @@ def runs_of(bench: Path) -> frozenset[str]:
             return frozenset(row[0] for row in db.execute("SELECT run FROM runs"))
     except sqlite3.Error:
         return frozenset()
+
+
+def rows(journal: Path) -> int | None:
+    """Return how many rows SQLite finds in a copy of a journal and its log; None if it can't read them."""
+    with tempfile.TemporaryDirectory() as folder:
+        copy = Path(folder) / "journal.sqlite"
+        for suffix in ("", "-wal"):
+            if (one := journal.with_name(f"journal.sqlite{suffix}")).exists():
+                shutil.copyfile(one, f"{copy}{suffix}")
+        try:
+            with closing(sqlite3.connect(copy)) as db:
+                queries = (f"SELECT count(*) FROM {table}" for table in ("runs", "records"))
+                return sum(int(db.execute(query).fetchone()[0]) for query in queries)
+        except sqlite3.Error:
+            return None
 
 
 def ended(bench: Path) -> int:

@@ -121,6 +121,10 @@ class Tries:
         copy_lab(self._labs[lab], self._lab)
         return self._lab, Commands(self._lab, self.plant if planted else None)
 
+    def path(self, case: Case) -> Path:
+        """Return the path of the file of a case in the lab that is copied, where it is whole."""
+        return self._labs[case.lab] / case.path
+
     def reference(self, lab: str, command: str) -> Reference:
         """Return what a command does in an undamaged lab, with no planted fault."""
         if (lab, command) not in self._references:
@@ -191,6 +195,8 @@ class Try:
     def __init__(self, tries: Tries, case: Case, draw: Random) -> None:
         self._tries, self.case, self._draw = tries, case, draw
         self.result = Result(case)
+        self._power = False
+        """Whether the journal has lost its last two transactions at most, as a power failure may leave it."""
         entry = entry_of(case.path.removeprefix(".pico/"))
         self._class = entry.kind if entry else "record"
 
@@ -208,12 +214,14 @@ class Try:
                 return self.result
             self.before = state(lab)
             self.damaged = path.read_bytes() if path.exists() else None
+            self._power = self._is_as_after_a_power_failure()
             answer = self._said(f"pico {case.command}")
         self.before = self.before if case.command != STOPPED else ref.before
         self._judge_motion(answer, state(lab), case.command)
         if case.command == STOPPED:
             return self.result
         doctor = self._said("pico doctor")
+        self._judge_doctor(answer, doctor)
         if answer.code == ref.answer.code:
             self._judge_silence(answer, doctor)
         else:
@@ -248,7 +256,12 @@ class Try:
                 self._judge_look(name, before, after)
         name = "emulated" if emulated else "sim"
         now, was, expected = (one.worlds.get(name, WorldPrint(None)) for one in (after, before, ref.after))
-        if now.parts is None or command == STOPPED or (command in LOOKS and answer.code == ref.answer.code):
+        if (
+            now.parts is None
+            or command == STOPPED
+            or self._power
+            or (command in LOOKS and answer.code == ref.answer.code)
+        ):
             return
         if answer.code == ref.answer.code and answer.code == 0:
             if not now.equals(expected):
@@ -271,7 +284,7 @@ class Try:
         text = oracle.text_of(answer.text, ref.runs)
         named = self._is_named(answer.text) or self._is_named(doctor.text)
         same = not ref.text or text == ref.text
-        known = self._class in MENDED_ALONE or (case.how == DELETED and self._is_loss_documented())
+        known = self._power or self._class in MENDED_ALONE or (case.how == DELETED and self._is_loss_documented())
         expected, now = ref.after.commits, state(self.lab).commits
         if (now[0], now[1]) != (expected[0], expected[1]) and not named:
             self._wrong(f"`{case.command}` committed another state, and nothing names the file")
@@ -283,12 +296,23 @@ class Try:
         if same and self._class == "cache" and self._is_named(answer.text) and "error" in answer.text:
             self._wrong("a cache is spoken of as an error")
 
+    def _judge_doctor(self, answer: Answer, doctor: Answer) -> None:
+        """A record that is still damaged is named: its JSON holds something else, or is none."""
+        path = self.lab / self.case.path
+        entry = entry_of(self.case.path.removeprefix(".pico/"))
+        if entry is None or entry.text or self._class in MENDED_ALONE or self.damaged is None or not path.exists():
+            return
+        same = oracle.document(path.read_bytes()) == oracle.document(self._tries.path(self.case).read_bytes())
+        if path.read_bytes() == self.damaged and not same and not self._is_named(answer.text + doctor.text):
+            self._wrong("`pico doctor` does not name a damaged file")
+
     def _judge_refusal(self, answer: Answer) -> None:
         """Judge a command that ended otherwise than on an undamaged lab, and follow what it says."""
         case, ref = self.case, self.reference
         if self._class == CACHE:
             self._wrong(f"damage of a cache makes `{case.command}` end with {answer.code}: {_error(answer.text)}")
         documented = case.how == DELETED and self._is_loss_documented()
+        documented = documented or self._power
         if not self._is_named(answer.text) and not documented:
             self._wrong(f"not named: `{case.command}` ended with {answer.code}: {_error(answer.text)}")
         for _ in range(WAYS):
@@ -316,6 +340,15 @@ class Try:
         if self._is_named(self._said("pico doctor").text):
             self._wrong("after the way on `pico doctor` still names the file")
 
+    def _is_as_after_a_power_failure(self) -> bool:
+        if not self.case.path.endswith("-wal"):
+            return False
+        whole, left = (
+            oracle.rows(path.with_name("journal.sqlite"))
+            for path in (self._tries.path(self.case), self.lab / self.case.path)
+        )
+        return whole is not None and left is not None and 0 < whole - left <= 2
+
     def _said(self, line: str) -> Answer:
         answer = self._run(line)
         self._note(line, answer)
@@ -332,6 +365,8 @@ class Try:
     def _is_named(self, text: str) -> bool:
         path = re.sub(r"-(wal|shm)$", "", self.case.path)
         name = path.rpartition("/")[2]
+        if "/armed/" in path and re.search(r"armed/\w+\.json|warning\[unarmed\]|`pico laser arm", text):
+            return True  # the seal is named by what it seals, and a laser that stays shut by how it is armed
         return path in text or f"/{name}" in text or "journal-record]: run" in text or f"/{name}.damaged" in text
 
     def _is_loss_documented(self) -> bool:
