@@ -25,6 +25,7 @@ SMALLEST = {
     "control_plane": "--crashes 2000 --seeds 300 --only number",
     "cross_bench": "--only 3 4 --seed 11 --jobs 2",
     "crash_points": "--crashes 300",
+    "damaged_state": "--tries 4 --short-day --seed 3",
     "data": "--commits 20 --objects 3 --size 0.1 --kills 2",
     "disks": "fmt note blame --points 1",
     "eyes": "--scenes 1 --renderer raycast",

@@ -30,6 +30,7 @@ from pico.places.bench import BenchPlace
 from pico.places.record import read_record
 from pico.recipes.log import Log
 from pico.runs.journal import Journal
+from pico.runs.salvage import examined
 
 ROOT = Path(__file__).resolve().parent.parent
 JSON = [file for file in ALL if not file.text]
@@ -398,6 +399,66 @@ def test_a_journal_of_version_3_is_lifted_and_its_records_count_without_checksum
         assert db.execute("PRAGMA user_version").fetchone() == (4,)
         known = {row[0] is None for row in db.execute("SELECT checksum FROM records")}
     assert known == {True, False}
+
+
+def test_a_journal_that_lacks_the_run_that_was_killed_stops_what_moves_until_it_is_salvaged(
+    lab: Path, pico: Pico
+) -> None:
+    """SQLite passes over a log that is gone or cut off in silence."""
+    path, run = lab / ".pico/benches/sim/journal.sqlite", "20261127T120000Z-aaaaaa"
+    path.with_name("run").write_text(f"{run}\n")
+    for words in ("plan e1", "set p1 angle=4 --yes", "undo --yes", "recover --yes"):
+        answer = pico(*words.split())
+        assert answer.code == 1 and run in answer.err and "`pico doctor --journal`" in answer.err, answer.err
+        assert str(path) in answer.err
+    assert run in pico("doctor").err
+    done = pico("doctor", "--journal", "--yes", "--json")
+    assert done.code == 0 and [one["run"] for one in done.data["lost"]] == [run]
+    assert pico("doctor").code == 0 and pico("set", "p1", "angle=4", "--yes").code == 0
+
+
+def test_a_deleted_journal_of_a_run_that_was_killed_is_made_of_commits(committed: Path, pico: Pico) -> None:
+    path, run = committed / ".pico/benches/sim/journal.sqlite", "20261127T120000Z-aaaaaa"
+    path.with_name("run").write_text(f"{run}\n")
+    path.unlink()
+    answer = pico("apply", "e1", "--yes")
+    assert answer.code == 1 and run in answer.err and not path.exists()
+    done = pico("doctor", "--journal", "--yes", "--json")
+    assert done.code == 0 and [one["run"] for one in done.data["lost"]] == [run]
+    assert done.data["from_commits"] and pico("apply", "e1", "--yes").code == 0
+
+
+def test_a_damaged_mark_of_a_run_that_has_not_ended_stops_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    with closing(Journal(path)) as journal:
+        journal.begin_run("20261127T120000Z-aaaaaa", "plan", "test")
+    path.with_name("run").write_text("20261127T120000Z-aaaaab\n")
+    with closing(Journal(path)) as journal:
+        assert len(journal.runs()) == 1
+
+
+def test_a_damaged_log_beside_a_journal_is_noticed_and_one_that_was_cut_off_is_read(tmp_path: Path) -> None:
+    log = tmp_path / "journal.sqlite-wal"
+    with closing(Journal(tmp_path / "journal.sqlite")) as journal:
+        for number in range(8):
+            journal.begin_run(f"run{number}", "plan", "test")
+        base, whole = journal.path.read_bytes(), log.read_bytes()
+
+    def runs(data: bytes) -> int:
+        for path in tmp_path.iterdir():
+            path.unlink()
+        (tmp_path / "journal.sqlite").write_bytes(base)
+        log.write_bytes(data)
+        with closing(Journal(tmp_path / "journal.sqlite", looking=True)) as journal:
+            return len(journal.runs())
+
+    assert runs(whole) == 8
+    assert runs(whole[:-5000]) < 8  # as after a power failure: no later record was on the disk
+    for at in (0, 20, 40, 100, len(whole) // 2, len(whole) - 20000):
+        with pytest.raises(PicoError, match=r"write-ahead log is damaged.*journal\.sqlite") as refused:
+            runs(whole[:at] + bytes([whole[at] ^ 8]) + whole[at + 1 :])
+        assert "`pico doctor --journal`" in refused.value.diagnostics[0].hint
+        assert "log is damaged" in examined(tmp_path / "journal.sqlite").broken
 
 
 def test_git_has_nothing_of_it(lab: Path) -> None:

@@ -9,11 +9,13 @@ from __future__ import annotations
 import json
 import zlib
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from pico.base.state_files import JOURNAL, RUN_MARK
 from pico.diagnostics import Diagnostic, PicoError, error
 
 CARRYING = "pico.history.runs.carrying"
@@ -76,6 +78,21 @@ def _is_json(text: object) -> bool:
 def named(path: Path, what: str) -> Diagnostic:
     """Return that a row of the journal at `path` is damaged, and in no commit."""
     text = f"{what} in the journal of the bench {path.parent.name} is damaged, and no commit has that run: {path}"
+    return error("journal-record", text, hint=SALVAGE)
+
+
+def marked_run(path: Path) -> str:
+    """Return the run that has begun and not ended by the mark beside the journal at `path`, empty for none. The mark is
+    written once the journal has the run."""
+    if path.name == JOURNAL.name:  # and not a copy
+        with suppress(OSError, UnicodeError):
+            return RUN_MARK.path(path.parent).read_text(encoding="ascii").strip()
+    return ""
+
+
+def without_end(path: Path, why: str) -> Diagnostic:
+    """Return that the journal at `path` has lost what was written to it last."""
+    text = f"the journal of the bench {path.parent.name} has lost what was written last: {why}: {path}"
     return error("journal-record", text, hint=SALVAGE)
 
 

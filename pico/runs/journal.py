@@ -36,9 +36,12 @@ from pico.runs.damage import (
     is_sound_head,
     is_sound_part,
     is_sound_record,
+    marked_run,
     named,
     sums_of_run,
-)  # fmt: skip
+    without_end,
+)
+from pico.runs.write_ahead import lost_transactions
 from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
@@ -153,9 +156,15 @@ class Journal:
         self._clock, self._looking = clock, looking
         self._sums = "checksum"
         self._in_commits: dict[str, FromCommit | None] = {}
+        marked = marked_run(path)
         with self._guarded():
             if is_emptied(path):
                 raise sqlite3.DatabaseError("the file is empty")
+            if lost := lost_transactions(path):  # before it is opened: SQLite then drops them
+                why = f"its write-ahead log is damaged, and {lost} transactions lie behind that"
+                raise PicoError(without_end(path, why))
+            if marked and not path.exists():
+                raise PicoError(without_end(path, f"the file is gone, and run {marked} has begun"))
             try:
                 if not looking:
                     path.parent.mkdir(parents=True, exist_ok=True)
@@ -164,6 +173,17 @@ class Journal:
                 if not looking or _is_open(path):
                     raise
                 self._open(f"{path.absolute().as_uri()}?immutable=1")
+            if marked:
+                self._require_run(marked)
+
+    def _require_run(self, run: str) -> None:
+        """Raise PicoError if a run is missing that has begun and not ended, and no other run has not ended: its mark
+        may be damaged."""
+        last = self._db.execute("SELECT finished_at FROM runs ORDER BY number DESC LIMIT 1").fetchone()
+        known = self._db.execute("SELECT 1 FROM runs WHERE run = ?", (run,)).fetchone()
+        if not known and (last is None or last[0] is not None):
+            self._db.close()
+            raise PicoError(without_end(self.path, f"it does not hold run {run}, which has begun"))
 
     def _open(self, name: str) -> None:
         self._db = sqlite3.connect(

@@ -22,9 +22,11 @@ from pico.runs.damage import (
     is_sound_head,
     is_sound_part,
     is_sound_record,
+    marked_run,
     sums_of_run,
 )
 from pico.runs.journal import HEAD, ROW, Journal, as_text, is_emptied, operation_from_json
+from pico.runs.write_ahead import lost_transactions
 
 MOST = 10_000_000
 """Rows that are tried one by one at most if a table can't be read from its beginning to its end."""
@@ -43,7 +45,9 @@ class Examined:
     fence: int = 0
     """The highest token that was let through."""
     broken: str = ""
-    """What SQLite says is wrong with the file as a whole; empty if nothing is."""
+    """What is wrong with the file as a whole; empty if nothing is."""
+    missing: str = ""
+    """A run that has begun by its mark and is not in the journal."""
 
     def damaged(self) -> dict[str, list[str]]:
         """Return what of each run is damaged, by its id as it is read."""
@@ -57,6 +61,8 @@ class Examined:
         known = {row[1] for row in self.runs}
         for run in {str(row[2]) for row in self.records} - known:
             found.setdefault(run, []).append("the beginning of the run is missing")
+        if self.missing:
+            found.setdefault(self.missing, []).append("all of it is missing")
         return found
 
 
@@ -86,8 +92,10 @@ class Salvage:
 def examined(path: Path) -> Examined:
     """Return all that can be read of the journal at `path`; the file and what lies beside it stay untouched. Raises
     PicoError if they can't be copied."""
-    if is_emptied(path):
-        return Examined(broken="the file is empty")
+    marked = marked_run(path)
+    if not path.exists() or is_emptied(path):
+        return Examined(broken="the file is empty" if path.exists() else "the file is gone", missing=marked)
+    lost = lost_transactions(path)
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / path.name
         with writing(copy):
@@ -97,9 +105,15 @@ def examined(path: Path) -> Examined:
         try:
             with closing(sqlite3.connect(copy)) as db:
                 db.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
-                return _read(db)
+                found = _read(db)
         except sqlite3.Error as exc:
-            return Examined(broken=str(exc))
+            return Examined(broken=str(exc), missing=marked)
+    if lost:
+        found.broken = f"its write-ahead log is damaged, and {lost} transactions behind that are lost"
+    open_end = not found.runs or found.runs[-1][5] is None  # then the mark may be what is damaged
+    if marked not in {row[1] for row in found.runs} and (found.broken or not open_end or not found.runs):
+        found.missing = marked
+    return found
 
 
 def _read(db: sqlite3.Connection) -> Examined:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from pico.base.state_files import JOURNAL, OWN_LAB
+from pico.base.state_files import JOURNAL, OWN_LAB, RUN_MARK
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge.lease import BenchLock
 from pico.history.runs.carrying import carried_runs
 from pico.places.bench import BenchPlace
-from pico.runs.damage import SALVAGE, FromCommit, from_commit
+from pico.runs.damage import SALVAGE, FromCommit, from_commit, marked_run
 from pico.runs.salvage import Examined, Salvage, examined, replace_journal, salvage, write_journal
 
 NAMED = 5
@@ -69,20 +69,19 @@ def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
     one, which is set aside and never deleted. Raises PicoError, exit code LOCKED if somebody moves the bench."""
     path = JOURNAL.path(place.folder)
     if not write:
-        return _salvaged(place, path, _examined(path))
+        return _salvaged(place, path, examined(path))
     with BenchLock(place).held("pico doctor --journal"):
-        found = _salvaged(place, path, _examined(path))
+        found = _salvaged(place, path, examined(path))
         if not found.damaged:
             return found
         new = path.with_name(f".{path.name}.new")
         for old in new.parent.glob(f"{new.name}*"):  # of a command that was killed
             old.unlink()
         write_journal(found.made, new)
-        return Salvaged(found.bench, path, True, found.made, found.broken, replace_journal(path, new))
-
-
-def _examined(path: Path) -> Examined:
-    return examined(path) if path.exists() else Examined(broken="the file is gone")
+        aside = replace_journal(path, new)
+        if marked_run(path) in {one.run for one in found.made.lost}:
+            RUN_MARK.path(place.folder).unlink(missing_ok=True)
+        return Salvaged(found.bench, path, True, found.made, found.broken, aside)
 
 
 def _salvaged(place: BenchPlace, path: Path, found: Examined) -> Salvaged:
