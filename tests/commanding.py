@@ -6,13 +6,15 @@ import io
 import json
 import re
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from pico.base.state_files import JOURNAL, RUN_MARK
 from pico.edge.lease import BenchLock
 from pico.places.bench import BenchPlace
+from pico.runs.journal import Journal
 
 
 @dataclass(frozen=True)
@@ -71,8 +73,11 @@ def with_goals(lab: Path, goals: str) -> None:
 @contextmanager
 def a_run_goes_on(root: Path, what: str, bench: str = "sim") -> Iterator[None]:
     """Hold the bench, in the midst of a run."""
-    mark = BenchPlace(root, bench).folder / "run"
-    with BenchLock(BenchPlace(root, bench)).held(what):
-        mark.write_text("20261123T120000Z-aaaaaa")
+    place, run = BenchPlace(root, bench), "20261123T120000Z-aaaaaa"
+    mark = RUN_MARK.path(place.folder)
+    with BenchLock(place).held(what), closing(Journal(JOURNAL.path(place.folder))) as journal:
+        journal.begin_run(run, "", what)
+        mark.write_text(run)
         yield
         mark.unlink()
+        journal.end_run(run, "done", {})

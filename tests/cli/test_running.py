@@ -82,7 +82,7 @@ class OneRun:
     def __init__(self, run: Any) -> None:
         self._run = run
 
-    def run(self, plan: Plan) -> Any:
+    def run(self, plan: Plan, **_: Any) -> Any:
         return self._run
 
 
