@@ -435,7 +435,7 @@ def test_nonsense_is_answered_and_does_no_harm(lab: Path) -> None:
                 link.connect(str(place.find(bench_at(lab))))
                 link.sendall(data)
                 answer = json.loads(link.makefile("rb").readline())
-                assert answer["error"][0]["code"] == "link" and "no call" in answer["error"][0]["summary"]
+                assert answer["error"][0]["code"] == "link" and "call" in answer["error"][0]["summary"]
         with Bench.open(lab) as bench:
             assert bench.observe().components
 
