@@ -77,8 +77,8 @@ class Tried:
 class Outcome:
     """How a loop ended. `first`, `last`: the results with which it began and ended (None: not measured); `tried`: all
     that was measured, in order; `met`: the goal is met; `why` it ended; `fault`: what failed; `solution`: where the
-    algorithm's model has the best, where the tunables were left by an offset from there; `saturated`: there was too much light to measure where it
-    began."""
+    algorithm's model has the best, where the tunables were left by an offset from there; `saturated`: there was
+    too much light to measure where it began."""
 
     first: Mapping[str, float] | None
     last: Mapping[str, float] | None

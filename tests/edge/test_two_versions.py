@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,6 +18,8 @@ from commanding import Answer, Pico, edit
 from serving import served
 
 from pico import version
+from pico.base.formats import Format
+from pico.base.state_files import OWN_LAB
 from pico.bench.bench import Bench
 from pico.diagnostics import PicoError
 from pico.edge import own_lab
@@ -220,10 +223,11 @@ def newer_journal(lab: Path) -> Path:
 def newer_lab(lab: Path) -> Path:
     kept = own_lab.read(bench_at(lab))
     assert kept is not None
+    newer = replace(OWN_LAB, format=Format("pico.bench-lab", (dict,) * 98))
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(own_lab, "SCHEMA", "pico.bench-lab/v99")
+        patch.setattr(own_lab, "OWN_LAB", newer)
         own_lab.write(bench_at(lab), kept)
-    return lab / ".pico/benches/sim/lab.json"
+    return OWN_LAB.path(lab / ".pico/benches/sim")
 
 
 @pytest.mark.parametrize("write", [newer_journal, newer_lab])

@@ -83,13 +83,13 @@ def test_an_annotated_tag_is_its_commit(repo: Path, git: Git) -> None:
 
 
 @pytest.mark.parametrize(
-    ("wrong", "hint"), [("mian", "main"), ("fisrt", "first"), ("HEAD~9", ""), ("-x", ""), ("", "")]
+    ("wrong", "hint"), [("mian", "main"), ("fisrt", "first"), ("HEAD~9", ""), ("-x", ""), ("", "leave the word out")]
 )
 def test_an_unknown_revision_is_named_with_the_nearest(repo: Path, wrong: str, hint: str) -> None:
     with pytest.raises(PicoError) as caught:
         opened(repo).resolve(wrong)
     (said,) = caught.value.diagnostics
-    assert f"`{wrong}`" in said.summary and hint in said.hint
+    assert (f"`{wrong}`" if wrong else "an empty word") in said.summary and hint in said.hint
 
 
 def test_a_clone_resolves_branches_that_only_its_remote_has(repo: Path, git: Git, tmp_path: Path) -> None:

@@ -43,7 +43,7 @@ def test_an_arming_says_its_times_with_their_zone(begins: str, ends: str) -> Non
     if begins.endswith("Z") and ends.endswith("+01:00"):
         assert (made().unattended, made().ended_by, made().seen_over) == (None, None, None)
     else:
-        with pytest.raises(ValueError, match=r"says no time zone|isoformat"):
+        with pytest.raises(ValueError, match=r"names no time zone|isoformat"):
             made()
 
 
