@@ -165,7 +165,7 @@ SAFETY_BY_HAND: tuple[ByHand, ...] = (
         "self._wrong(f\"the bench is not left as {terms.recipe.partition('@')[0]} states\", exc)", "pass", "test_alone_rules.py::test_a_bench_that_cannot_be_had_is_told_as_not_left_so",
         "pico/edge/unattended.py", "A laser stays open overnight, and the report says that the bench was left as stated."),
     ByHand("a laser that could not be shut is taken for shut",
-        "            if not await self._done(operation):\n                return False\n            self._told",
+        "            if not await self._done(operation):\n                return\n            self._told",
         "            await self._done(operation)\n            self._told", "test_shutting.py::test_an_arming_that_is_over_is_kept_until_its_laser_is_shut",
         "pico/edge/shutting.py", "The shutter jams once, the end of the arming is forgotten, and nothing tries to close it again."),
     ByHand("an arming without a seal counts",
