@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from pathlib import Path
 from random import Random
 
 PAGE = 4096
 DELETED = "deleted"
+EARLIER = 10**18
+"""When a file was damaged [ns]: one that has just been made may be empty."""
 
 
 def flip_bit(data: bytes, draw: Random) -> bytes:
@@ -61,8 +64,9 @@ def damage(path: Path, how: str, draw: Random) -> bool:
     if not before:
         return False
     after = DAMAGES[how](before, draw)
-    mode = path.stat().st_mode
+    was = path.stat()
     path.unlink()  # it may be linked to the file that labs are copied from
     path.write_bytes(after)
-    path.chmod(mode)
+    path.chmod(was.st_mode)
+    os.utime(path, ns=(was.st_atime_ns, EARLIER))
     return after != before

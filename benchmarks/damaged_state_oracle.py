@@ -17,6 +17,7 @@ BROKEN = re.compile(r"Traceback|\[internal\]|PICO itself failed|mistake in PICO|
 RUN = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{6}")
 NEW = "NEWRUN"
 _DRIFTING = (
+    (re.compile(r"(?m)^(note\[slow\].*|\d+ (note|warning)s?(, \d+ notes?)?)$| of about [\d.]+ s\b"), ""),
     (re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d(\.\d+)?)?( UTC|Z)?"), "TIME"),
     (re.compile(r"\b\d+(\.\d+)? ?(s|ms|min|h|seconds|minutes|hours)\b( ago)?"), "AGE"),
     (re.compile(r"just now|a (minute|moment) ago"), "AGE"),
@@ -31,7 +32,7 @@ def text_of(text: str, known: frozenset[str]) -> str:
     text = RUN.sub(lambda m: m[0] if m[0] in known else NEW, text)
     for pattern, word in _DRIFTING:
         text = pattern.sub(word, text)
-    return text
+    return "\n".join(line.strip() for line in text.splitlines() if line.strip())
 
 
 @dataclass(frozen=True)

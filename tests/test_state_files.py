@@ -28,9 +28,9 @@ from pico.edge import dose, stopping, unattended
 from pico.edge.lease import BenchLock
 from pico.places.bench import BenchPlace
 from pico.places.record import read_record
-from pico.recipes.log import Log
+from pico.recipes.log import About, Log
 from pico.runs.journal import Journal
-from pico.runs.salvage import examined
+from pico.runs.salvage import Salvage, examined, write_journal
 
 ROOT = Path(__file__).resolve().parent.parent
 JSON = [file for file in ALL if not file.text]
@@ -428,6 +428,18 @@ def test_a_deleted_journal_of_a_run_that_was_killed_is_made_of_commits(committed
     assert done.data["from_commits"] and pico("apply", "e1", "--yes").code == 0
 
 
+def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path) -> None:
+    old, new = tmp_path / "old.sqlite", tmp_path / "new.sqlite"
+    with closing(Journal(old)) as journal:
+        for number in range(3):
+            journal.begin_run(f"run{number}", "plan", "test")
+    rows = examined(old).runs
+    same = [(rows[1][0], *rows[0][1:]), rows[1], (None, *rows[2][1:])]
+    write_journal(Salvage(same, [], 0, 3, (), ()), new)
+    with closing(Journal(new)) as journal:
+        assert [(one.number, one.run) for one in journal.runs()] == [(1, "run0"), (2, "run1"), (3, "run2")]
+
+
 def test_a_damaged_mark_of_a_run_that_has_not_ended_stops_nothing(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     with closing(Journal(path)) as journal:
@@ -459,6 +471,22 @@ def test_a_damaged_log_beside_a_journal_is_noticed_and_one_that_was_cut_off_is_r
             runs(whole[:at] + bytes([whole[at] ^ 8]) + whole[at + 1 :])
         assert "`pico doctor --journal`" in refused.value.diagnostics[0].hint
         assert "log is damaged" in examined(tmp_path / "journal.sqlite").broken
+
+
+def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on(lab: Path, pico: Pico) -> None:
+    log = Log.begin(BenchPlace(lab, "sim"), About("20261127T120000Z-aaaaaa", "x", "recipes/x.yaml", "d", {}, {}, "now"))
+    log.begun("1", {"set": 12}, (None, None), "set")
+    whole = log.path.read_bytes()
+    assert set(Log.read(log.path).steps) == {"1"} and pico("doctor").code == 0
+    for at in (0, whole.index(b"recipes/x"), whole.index(b'"given": "') + 12, len(whole) - 20):
+        log.path.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
+        with pytest.raises(PicoError, match=r"aaaaaa\.jsonl"):
+            Log.read(log.path)
+    log.path.write_bytes(b"")
+    doctor = pico("doctor")
+    assert doctor.code == 1 and f"`mv {log.path} {log.path}.damaged`" in doctor.err
+    log.path.rename(f"{log.path}.damaged")
+    assert pico("doctor").code == 0
 
 
 def test_git_has_nothing_of_it(lab: Path) -> None:

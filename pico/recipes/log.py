@@ -15,10 +15,12 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from pico.base.state_files import RECIPE_LOG
 from pico.diagnostics import PicoError, error
 from pico.disk import unwritable
 from pico.edge.network.remotes import Place
 from pico.model.record import digest
+from pico.runs.damage import checksum
 
 SCHEMA = "pico.recipe_run/v1"
 UNWRITTEN = "recipe-unwritten"
@@ -83,19 +85,20 @@ class Log:
         """Return the log of a run that was begun before; a last line that was cut short does not count."""
         try:
             lines = path.read_text(encoding="utf-8").split("\n")[:-1]
-            first, *rest = [json.loads(line) for line in lines]
+            if not lines:
+                raise ValueError("it does not say of which recipe it is")
+            if (schema := json.loads(lines[0]).get("schema")) != SCHEMA:
+                raise ValueError(f"it is {schema}")
+            first, *rest = [_read_line(line) for line in lines]
             known = {k: first[k] for k in ("id", "name", "path", "digest", "arguments", "at")}
             known["texts"] = first.get("texts", {})
-            if first.get("schema") != SCHEMA:
-                raise ValueError(f"it is {first.get('schema')}")
             ended, steps, times = "", dict[str, Logged](), 0
             for line in rest:
                 times = int(line.get("taken_up", times))
                 ended = line.get("ended", "")
                 _take(steps, line)
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
-            hint = "begin the recipe anew: what it did is in the runs of the bench"
-            raise PicoError(error("recipe-log", f"{path} can't be read: {exc}", hint=hint)) from exc
+            raise PicoError(RECIPE_LOG.damaged(path, str(exc))) from exc
         return cls(path, About(**known, ended=ended), steps, times)
 
     def begun(self, path: str, given: Any, at: Checked, kind: str = "") -> Logged:
@@ -134,7 +137,7 @@ class Log:
         self._write({"ended": how})
 
     def _write(self, line: Mapping[str, Any]) -> None:
-        text = json.dumps(line, ensure_ascii=False, allow_nan=False, sort_keys=True)
+        text = _text({**line, "checksum": checksum(_text(line))})
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             with self.path.open("ab") as file:
@@ -157,6 +160,18 @@ def folder(place: Place) -> Path:
 def logs(place: Place) -> list[Path]:
     """Return the logs of a bench, the latest first."""
     return sorted(folder(place).glob("*.jsonl"), reverse=True)
+
+
+def _text(line: Mapping[str, Any]) -> str:
+    return json.dumps(line, ensure_ascii=False, allow_nan=False, sort_keys=True)
+
+
+def _read_line(text: str) -> dict[str, Any]:
+    """Return what a line holds beside its checksum, which those of an earlier version lack; raises ValueError."""
+    line: dict[str, Any] = json.loads(text)
+    if (known := line.pop("checksum", None)) is not None and known != checksum(_text(line)):
+        raise ValueError("the checksum of a line does not match what it holds")
+    return line
 
 
 def _take(steps: dict[str, Logged], line: Mapping[str, Any]) -> None:

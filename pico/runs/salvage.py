@@ -257,13 +257,16 @@ def write_journal(made: Salvage, path: Path) -> None:
     with writing(path):
         try:
             with closing(sqlite3.connect(path)) as db:
-                whole = [(*row[:12], sums_of_run(row[:12])) for row in made.runs]
+                rows = [row[:12] for row in made.runs]
+                if len({row[0] for row in rows} - {None}) < len(rows):  # of a torn page: their order counts
+                    rows = [(number, *row[1:]) for number, row in enumerate(rows, 1)]
+                whole = [(*row, sums_of_run(row)) for row in rows]
                 db.executemany(
                     f"INSERT INTO runs ({HEAD}, document, about, seen, checksum) VALUES ({_marks(13)})", whole
                 )
-                rows = [(*row[1:10], checksum(*row[1:10])) for row in made.records]
+                records = [(*row[1:10], checksum(*row[1:10])) for row in made.records]
                 columns = ROW.partition(", ")[2]
-                db.executemany(f"INSERT INTO records ({columns}, checksum) VALUES ({_marks(10)})", rows)
+                db.executemany(f"INSERT INTO records ({columns}, checksum) VALUES ({_marks(10)})", records)
                 db.execute("UPDATE fence SET token = ?", (made.fence,))
                 db.commit()
                 db.execute("PRAGMA wal_checkpoint(TRUNCATE)")
