@@ -29,8 +29,9 @@ from pico.edge.lease import BenchLock
 from pico.places.bench import BenchPlace
 from pico.places.record import read_record
 from pico.recipes.log import About, Log
+from pico.runs.damage import FromCommit
 from pico.runs.journal import Journal
-from pico.runs.salvage import Salvage, examined, write_journal
+from pico.runs.salvage import Examined, Salvage, examined, salvage, write_journal
 
 ROOT = Path(__file__).resolve().parent.parent
 JSON = [file for file in ALL if not file.text]
@@ -438,6 +439,18 @@ def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path
     write_journal(Salvage(same, [], 0, 3, (), ()), new)
     with closing(Journal(new)) as journal:
         assert [(one.number, one.run) for one in journal.runs()] == [(1, "run0"), (2, "run1"), (3, "run2")]
+
+
+def test_salvage_takes_a_run_once_that_commits_hold_and_a_torn_journal_in_part(tmp_path: Path) -> None:
+    with closing(Journal(tmp_path / "old.sqlite")) as journal:
+        journal.begin_run("run0", "plan", "test")
+    (row,) = examined(tmp_path / "old.sqlite").runs
+    held = FromCommit(row[:9], (), None, ())
+    record = (1, "run0/a/1", "run0", 0, "intent", "p1", "", 1, "now", "{}", None)
+    torn = Examined([], [record], broken="torn")  # its row is gone, a record of it is not
+    made = salvage(torn, lambda run: held, ["run0"])
+    assert [one[1] for one in made.runs] == ["run0"] and made.from_commits == ("run0",) and made.intact == 0
+    write_journal(made, tmp_path / "new.sqlite")
 
 
 def test_a_damaged_mark_of_a_run_that_has_not_ended_stops_nothing(tmp_path: Path) -> None:

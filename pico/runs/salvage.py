@@ -176,8 +176,8 @@ def salvage(found: Examined, known: Callable[[str], FromCommit | None], committe
         for run, row in present.items():
             if run not in wrong and not _is_complete(row, own.get(run, []), known(run)):
                 wrong[run] = ["records of it are missing"]
-    gone = [run for run in committed if run not in present] if found.broken else []
-    for run in (*present, *sorted(wrong.keys() - present.keys()), *gone):
+    gone = wrong.keys() | set(committed if found.broken else ())
+    for run in (*present, *sorted(gone - present.keys())):
         there, rows = present.get(run), own.get(run, [])
         if run not in wrong and there is not None:
             runs.append(there)
