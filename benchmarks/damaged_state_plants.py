@@ -143,7 +143,9 @@ def _replace_everywhere(name: str, old: object, new: object) -> None:
 
 
 PLANTS: dict[str, Plant] = {
-    "checksum-off": Plant(_skip_checksums, r"world|settings|lab\.json", "silent|wrong motion|not named|committed"),
+    "checksum-off": Plant(
+        _skip_checksums, r"world|dose|mornings", "does not name|silent|wrong motion|not named|committed"
+    ),
     "stop-ignored": Plant(_ignore_damaged_stop, r"stop\.json", "request to stop"),
     "path-hidden": Plant(_hide_paths, r"world|chosen|labs\.json|dose", "not named"),
     "record-swallowed": Plant(_swallow_records, r"journal\.sqlite(-wal)?$", "silent|wrong motion|internal|Traceback"),
