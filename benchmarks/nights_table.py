@@ -189,7 +189,8 @@ class Evening:
                 world = world.with_value(name, "shutter", ObservedValue(value="closed"))
         table = Table(self.setup, self.place, world)
         if "pixel_size" in self.setup.type_of(component).parameters and measurable != "dark":
-            return {key: spot} if (spot := _spot(table, component, number)) else {}
+            spot = None if _too_bright(table, component) else _spot(table, component, number)
+            return {key: spot} if spot else {}
         measurer = measurer_of(self.setup, component, measurable)
         assert measurer is not None
         try:
@@ -208,6 +209,19 @@ class Evening:
 def name_of(address: str, at: Mapping[str, Any], number: str) -> str:
     """Return what tells one number of a measurement from the others."""
     return " ".join([address, number, *(f"{k}={at[k]}" for k in sorted(at))])
+
+
+def _too_bright(table: Any, component: str) -> bool:
+    """Return whether a camera is saturated at its shortest exposure, so that nobody can read where its light is."""
+    from pico.backends.sim.lighted import light_on
+    from pico.optics.beam_table import exposed
+
+    light = light_on(table)
+    part = light.parts[component]
+    least = (part.kind.tunables["exposure"].range or (0.0, 0.0))[0]
+    if not light.at(component) or not (told := exposed(light, part)):
+        return False
+    return told.times * least / part.value("exposure", "ms", 1.0) > 1.0
 
 
 def _spot(table: Any, component: str, number: str) -> Reading | None:
