@@ -33,8 +33,8 @@ DEPTH = 1
 
 
 def changed(root: Path, base: str = "") -> tuple[str, list[str]]:
-    """Return the merge base with `base` (main, or origin/main if there is no main here), and the paths that differ from
-    it, are edited or are not known to git."""
+    """Return the merge base with `base` (by default main, else origin/main), and the paths that differ from it, are
+    edited or untracked."""
     heads = _git(root, "for-each-ref", "--format=%(refname:short)", "refs/heads/main", "refs/remotes/origin/main")
     since = _git(root, "merge-base", base or next(iter(heads.split()), "HEAD"), "HEAD").strip()
     differ = _git(root, "diff", "--name-only", "--no-renames", "-z", since)
@@ -138,7 +138,7 @@ def _tests_beside(graph: Graph, path: str) -> dict[str, str]:
 
 
 def _tests_reading(graph: Graph, path: str) -> dict[str, str]:
-    """Return the tests that read a file that is no module of the product, by the names in them."""
+    """Return the tests that read a changed data file or page, by the names in them."""
     names, stem = _names(graph, path), Path(path).stem
     folders = {*Path(path).parts[:-1], f"{Path(path).parts[0]}_dir"} - {"tests"}
     found: dict[str, str] = {}
@@ -172,8 +172,8 @@ def chosen(graph: Graph, paths: Iterable[str], depth: int = DEPTH) -> dict[str, 
     return {path: concerned(graph, path, depth) for path in paths}
 
 
-def told(found: dict[str, dict[str, str]], graph: Graph) -> Iterator[str]:
-    """Yield, for a person, what each changed file chooses and why, and how many of how many that makes."""
+def report(found: dict[str, dict[str, str]], graph: Graph) -> Iterator[str]:
+    """Yield the lines of the report: what each changed file chooses and why, and how many of all tests that makes."""
     for path, tests in found.items():
         reasons = Counter(tests.values())
         why = ", ".join(f"{count} {reason}" for reason, count in reasons.most_common()) or "no test reads it"
@@ -193,7 +193,7 @@ def main() -> int:
     graph = Graph()
     found = chosen(graph, paths, words.depth)
     print(f"Changed since {since[:9]} (merge base with {words.base or 'main'}), edited or new: {len(paths)} files")
-    print("\n".join(told(found, graph)), flush=True)
+    print("\n".join(report(found, graph)), flush=True)
     tests = sorted(set().union(*found.values())) if found else []
     if words.list:
         print("\n".join(tests))

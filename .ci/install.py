@@ -17,7 +17,7 @@ STEP = re.compile(
     r"^\s*(Collecting|Downloading|Using cached|Installing collected packages|Building|Preparing)\b:?\s*(.*)"
 )
 EVERY = 10.0
-"""Seconds between two lines if the output is no terminal."""
+"""Seconds between two lines if the output is not a terminal."""
 
 
 class Progress:

@@ -85,8 +85,9 @@ def repeated(folder: Path) -> list[str]:
     """Return the operations that began though what they were to bring about was so, by the journal."""
     from pico.edge.recovery import arrived
     from pico.history.lab.folder import LabFolder
+    from pico.model.operation import operation_from_json
     from pico.model.pose import Pose
-    from pico.runs.journal import Journal, operation_from_json
+    from pico.runs.journal import Journal
 
     setup = LabFolder(folder).setup
     journal, found = Journal(folder / ".pico/benches/sim" / "journal.sqlite"), []

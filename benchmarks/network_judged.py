@@ -56,7 +56,7 @@ def doings(records: Iterable[Any], holders: Mapping[str, str], faults: Iterable[
     """Return what began, by the records of a journal and for whom each run was."""
     from datetime import datetime
 
-    from pico.runs.journal import operation_from_json
+    from pico.model.operation import operation_from_json
 
     deaths = sorted(f.since for f in faults if f.victim == "edge" and f.deed == "killed")
     meant: dict[str, Any] = {}

@@ -212,7 +212,7 @@ def name_of(address: str, at: Mapping[str, Any], number: str) -> str:
 
 
 def _too_bright(table: Any, component: str) -> bool:
-    """Return whether a camera is saturated at its shortest exposure, so that nobody can read where its light is."""
+    """Return whether a camera saturates at its shortest exposure, so that the position of its light is unreadable."""
     from pico.backends.sim.lighted import light_on
     from pico.optics.beam_table import exposed
 

@@ -12,9 +12,8 @@ from pico.diagnostics import Diagnostic
 from pico.edge.recovery import arrived
 from pico.model.diff import value_distance
 from pico.model.observation import Observation
-from pico.model.operation import Operation
+from pico.model.operation import Operation, operation_from_json
 from pico.model.setup import Setup
-from pico.runs.journal import operation_from_json
 
 SAME = (1.0, 1.0)
 """How far a component may be from where it was seen [mm, deg]."""

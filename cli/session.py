@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from .standing import Standing
 
 YES = ("--auto-approve", "--yes", "-y")
-"""The options of a command that asks nobody."""
+"""The options by which a command runs without confirmation."""
 standing: list[Standing] = []
 """How the lab stood before this command was to change something."""
 

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / ".ci"))
 
-from affected import changed, concerned, told  # noqa: E402
+from affected import changed, concerned, report  # noqa: E402
 from import_graph import Graph  # noqa: E402
 
 SMALL = {
@@ -115,7 +115,7 @@ def test_what_may_change_any_test_chooses_all(small: Graph, path: str) -> None:
 
 def test_the_answer_says_what_why_and_how_many_of_how_many(small: Graph) -> None:
     found = {path: concerned(small, path) for path in ("pico/planning/check.py", "ui/src/page.ts")}
-    assert [*told(found, small)] == [
+    assert [*report(found, small)] == [
         "  pico/planning/check.py: 1 (1 import it by way of pico/planning)",
         "  ui/src/page.ts: no test reads it",
         f"Chosen: 1 of {len(small.tests)} test files, without slow tests. CI runs all of them.",

@@ -31,7 +31,7 @@ from pico.places.record import read_record
 from pico.recipes.log import About, Log
 from pico.runs.damage import FromCommit
 from pico.runs.journal import Journal
-from pico.runs.salvage import Examined, Salvage, examined, salvage, write_journal
+from pico.runs.salvage import Examined, Salvage, examine, salvage, write_journal
 
 ROOT = Path(__file__).resolve().parent.parent
 JSON = [file for file in ALL if not file.text]
@@ -434,7 +434,7 @@ def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path
     with closing(Journal(old)) as journal:
         for number in range(3):
             journal.begin_run(f"run{number}", "plan", "test")
-    rows = examined(old).runs
+    rows = examine(old).runs
     same = [(rows[1][0], *rows[0][1:]), rows[1], (None, *rows[2][1:])]
     write_journal(Salvage(same, [], 0, 3, (), ()), new)
     with closing(Journal(new)) as journal:
@@ -444,7 +444,7 @@ def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path
 def test_salvage_takes_a_run_once_that_commits_hold_and_a_torn_journal_in_part(tmp_path: Path) -> None:
     with closing(Journal(tmp_path / "old.sqlite")) as journal:
         journal.begin_run("run0", "plan", "test")
-    (row,) = examined(tmp_path / "old.sqlite").runs
+    (row,) = examine(tmp_path / "old.sqlite").runs
     held = FromCommit(row[:9], (), None, ())
     record = (1, "run0/a/1", "run0", 0, "intent", "p1", "", 1, "now", "{}", None)
     torn = Examined([], [record], broken="torn")  # its row is gone, a record of it is not
@@ -483,7 +483,7 @@ def test_a_damaged_log_beside_a_journal_is_noticed_and_one_that_was_cut_off_is_r
         with pytest.raises(PicoError, match=r"write-ahead log is damaged.*journal\.sqlite") as refused:
             runs(whole[:at] + bytes([whole[at] ^ 8]) + whole[at + 1 :])
         assert "`pico doctor --journal`" in refused.value.diagnostics[0].hint
-        assert "log is damaged" in examined(tmp_path / "journal.sqlite").broken
+        assert "log is damaged" in examine(tmp_path / "journal.sqlite").broken
 
 
 def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on(lab: Path, pico: Pico) -> None:

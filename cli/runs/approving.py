@@ -56,10 +56,10 @@ def going_back(
     session: Session, command: str, auto_approve: bool, fidelity: str | None, speed: float | None, *,
     run: str | None, of: str | None = None,
 ) -> Bench:  # fmt: skip
-    """Open the bench for a command that goes on from an earlier run, or back to before one.
+    """Open the bench for a command that continues an earlier run or takes one back.
 
-    Says what was killed before it moved anything. Raises PicoError if that leaves open which run is meant, and nobody
-    is asked. `run`: the one that was named; `of`: whose it is.
+    Report a command that was killed before it moved anything. Raises PicoError if that leaves open which run is
+    meant and the command runs without confirmation. `run`: the run that was named; `of`: its operator.
     """
     bench = session.bench(fidelity, speed, writing=True, calls=False)
     if auto_approve and run is None:

@@ -317,8 +317,8 @@ def _addresses(done: Collection[tuple[str, str]], left: Collection[tuple[str, st
 def _cut_goals(memory: Memory, run: str) -> dict[str, Operation]:
     """Return the optimizations of a run that did not come to their end, by the key under which each was begun last: the
     process was gone, or a person stopped them."""
+    from pico.model.operation import operation_from_json
     from pico.optimize.loop import STOPPED
-    from pico.runs.journal import operation_from_json
 
     records = memory.records(run=run)
     begun = {r.key for r in records if r.kind == "started"}

@@ -53,7 +53,7 @@ class EdgeSight(Protocol):
 
 
 class EdgeLicensing(Protocol):
-    """What a bench lets emit, how much light its samples had, and runs that nobody attends."""
+    """What a bench lets emit, how much light its samples had, and runs that run unattended."""
 
     async def armings(self) -> tuple[Kept, ...]:
         """Return what the bench keeps of armings, also those that are over, or broken."""
@@ -84,7 +84,7 @@ class EdgeLicensing(Protocol):
         ...
 
     async def goes_on(self, recipe: str) -> None:
-        """Say that the client of a run that is held is there, and goes on. Raises PicoError (exit code INTERRUPTED)
+        """Report that the client of a run under its lease is still there. Raises PicoError (exit code INTERRUPTED)
         where the edge ended it; nothing is started for it then, either."""
         ...
 
@@ -94,7 +94,7 @@ class EdgeLicensing(Protocol):
         ...
 
     async def unattended(self) -> Terms | None:
-        """Return the terms of the unattended run that goes on, or of the last that was not ended by its client as it
+        """Return the terms of the unattended run in progress, or of the last that was not ended by its client as it
         states; None for none."""
         ...
 
@@ -104,7 +104,7 @@ class EdgeCustody(Protocol):
     current lease raises PicoError with exit code LOCKED."""
 
     async def holder(self) -> Holder | None:
-        """Return who moves the bench, None where nobody does."""
+        """Return who moves the bench, None if it is free."""
         ...
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
@@ -139,7 +139,7 @@ class EdgeRuns(Protocol):
     """Runs on a bench: begun, followed and ended."""
 
     async def unended(self) -> str | None:
-        """Return the run that has begun and not ended: one that goes on, else one that was killed; None for none."""
+        """Return the run that has begun and not ended: the one in progress, else one that was killed; None for none."""
         ...
 
     async def start(self, job: Job, run: str) -> str:
@@ -196,7 +196,7 @@ class Edge(EdgeSight, EdgeLicensing, EdgeCustody, EdgeRuns, Protocol):
         ...
 
     async def adopt(self, lab: OwnLab, holder: str) -> None:
-        """Take another Lab as the bench's own, for `holder`, while nobody moves the bench.
+        """Take another Lab as the bench's own, for `holder`, while the bench is free.
 
         Raises PicoError: exit code LOCKED, STALE where it was changed meanwhile, and for what is wrong with `lab`.
         """
@@ -210,13 +210,13 @@ class Edge(EdgeSight, EdgeLicensing, EdgeCustody, EdgeRuns, Protocol):
     async def resolve(self, key: str, outcome: Outcome, by: str) -> None:
         """Record what a person says of an operation that only a person can tell the end of.
 
-        Raises PicoError where nobody asks about `key`, and where somebody moves the bench (exit code LOCKED).
+        Raises PicoError if no question is open under `key`, or if the bench is in use (exit code LOCKED).
         """
         ...
 
     @property
     def world(self) -> World:
-        """The simulated world; raises PicoError where nothing is simulated."""
+        """The simulated world; raises PicoError if this bench is not simulated."""
         ...
 
     async def close(self) -> None:

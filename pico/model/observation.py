@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import field, replace
-from typing import Literal
+from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.arming import Licence
@@ -207,3 +207,17 @@ def astray(setup: Setup, seen: Observation) -> Iterator[str]:
             continue
         if not arm.is_parked(state.joints):
             yield name
+
+
+def observed_from_json(data: Mapping[str, Any] | None) -> ObservedComponent | None:
+    """Return the observed component whose `as_json` gave `data`; None for None."""
+    if data is None:
+        return None
+    return ObservedComponent(
+        presence=data["presence"],
+        pose=Pose(**data["pose"]) if "pose" in data else None,
+        uncertainty=Uncertainty(**data["uncertainty"]),
+        age=float(data["age"]),
+        values={k: ObservedValue(value=v.get("value"), status=v["status"]) for k, v in data["values"].items()},
+        how=data.get("how", ""),
+    )

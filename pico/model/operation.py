@@ -8,7 +8,7 @@ from itertools import count
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic
-from pico.model.observation import ObservedComponent
+from pico.model.observation import ObservedComponent, observed_from_json
 from pico.model.primitive import Primitive, primitive
 from pico.model.record import record
 
@@ -167,3 +167,26 @@ class OperationResult:
     seconds: float = 0.0
     ended: float = 0.0
     data: Mapping[str, Any] = field(default_factory=dict)
+
+
+def operation_from_json(data: Mapping[str, Any]) -> Operation:
+    """Return the operation whose `as_json` gave `data`."""
+    listed = {k: tuple(data[k]) for k in ("resources", "after") if k in data}
+    why = data["reason"]
+    reason = Reason(**{**why, "of": tuple(why.get("of", ()))})
+    return Operation(**{**data, **listed, "reason": reason})
+
+
+def result_from_json(data: Mapping[str, Any]) -> OperationResult:
+    """Return the result whose `as_json` gave `data`."""
+    found = data.get("error")
+    return OperationResult(
+        key=data["key"],
+        outcome=data["outcome"],
+        error=Diagnostic(**{k: v for k, v in found.items() if k != "source"}) if found else None,
+        before=observed_from_json(data.get("before")),
+        after=observed_from_json(data.get("after")),
+        seconds=float(data["seconds"]),
+        ended=float(data["ended"]),
+        data=data["data"],
+    )

@@ -69,8 +69,8 @@ def git_folders(path: Path) -> tuple[Path, Path, Path] | None:
     if whole:
         return top, own, common
     if own == mark:
-        raise PicoError(error("git-unreadable", f"{mark} is no repository that Git can read", hint=_REPAIR))
-    text = f"{mark} names {own}, which is no repository that Git can read"
+        raise PicoError(error("git-unreadable", f"Git cannot read the repository at {mark}", hint=_REPAIR))
+    text = f"{mark} names {own}, where Git cannot read a repository"
     hint = f"if the repository was moved: `git worktree repair {top}` in it"
     raise PicoError(error("git-unreadable", text, hint=f"{hint}; {_REPAIR}"))
 

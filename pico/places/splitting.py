@@ -88,7 +88,7 @@ def _split(folder: Path) -> Layout:
         return _built(folder, building, benches_of_runs(path) if path.exists() else {})
     except Damaged as exc:
         text = f"the journal {path} can't be read, so its runs can't be sorted by bench: {exc}"
-        hint = f"`mv {path} {path}.damaged` goes on without the runs in it that no commit has"
+        hint = f"`mv {path} {path}.damaged` continues without the runs in it that no commit has"
         raise PicoError(error("journal", text, hint=hint)) from exc
 
 

@@ -75,7 +75,7 @@ def _is_json(text: object) -> bool:
     return True
 
 
-def named(path: Path, what: str) -> Diagnostic:
+def damaged_row(path: Path, what: str) -> Diagnostic:
     """Return that a row of the journal at `path` is damaged, and in no commit."""
     text = f"{what} in the journal of the bench {path.parent.name} is damaged, and no commit has that run: {path}"
     return error("journal-record", text, hint=SALVAGE)
@@ -90,7 +90,7 @@ def marked_run(path: Path) -> str:
     return ""
 
 
-def without_end(path: Path, why: str) -> Diagnostic:
+def lost_end(path: Path, why: str) -> Diagnostic:
     """Return that the journal at `path` has lost what was written to it last."""
     text = f"the journal of the bench {path.parent.name} has lost what was written last: {why}: {path}"
     return error("journal-record", text, hint=SALVAGE)

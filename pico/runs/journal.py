@@ -22,9 +22,8 @@ from typing import Any, Literal, cast
 from pico.base.clock import now_ms
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import refusing, unwritable
-from pico.model.observation import ObservedComponent, ObservedValue, Uncertainty
-from pico.model.operation import Operation, OperationResult, Outcome, Reason
-from pico.model.pose import Pose
+from pico.model.observation import ObservedComponent, observed_from_json
+from pico.model.operation import Operation, OperationResult, Outcome, operation_from_json, result_from_json
 from pico.model.record import as_json, digest, record
 from pico.model.trace.run import RunOutcome
 from pico.runs.damage import (
@@ -32,58 +31,27 @@ from pico.runs.damage import (
     SALVAGE,
     FromCommit,
     checksum,
+    damaged_row,
     from_commit,
     is_sound_head,
     is_sound_part,
     is_sound_record,
+    lost_end,
     marked_run,
-    named,
     sums_of_run,
-    without_end,
 )
+from pico.runs.journal_tables import HEAD, ROW, SCRIPTS, VERSION
 from pico.runs.write_ahead import lost_transactions
 from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
-VERSION = 4
 MAKING = 5.0
 """Seconds within which a process that makes a journal has written its tables."""
 RECENT = 2000
 """So many records are checked before anything is written, and with them anything moves."""
 SMALL = 1000
 """Pages of a journal up to which its indices are checked then, too."""
-_RUNS = """
-CREATE TABLE IF NOT EXISTS runs (
-  number INTEGER PRIMARY KEY AUTOINCREMENT, run TEXT NOT NULL UNIQUE, plan TEXT NOT NULL, holder TEXT NOT NULL,
-  started_at TEXT NOT NULL, finished_at TEXT, outcome TEXT, tally TEXT, document TEXT, resumed INTEGER DEFAULT 0,
-  about TEXT, seen TEXT, checksum TEXT
-);
-CREATE TABLE IF NOT EXISTS fence (one INTEGER PRIMARY KEY CHECK (one = 1), token INTEGER NOT NULL);
-INSERT OR IGNORE INTO fence VALUES (1, 0);
-"""
-_FROM_1 = f"""
-ALTER TABLE runs RENAME TO old_runs;
-{_RUNS}
-INSERT INTO runs (run, plan, holder, started_at, finished_at, outcome, tally)
-  SELECT run, plan, holder, started_at, finished_at, outcome, tally FROM old_runs ORDER BY started_at, run;
-DROP TABLE old_runs;
-ALTER TABLE records ADD COLUMN checksum TEXT;
-"""
-_FROM_3_RECORDS = "ALTER TABLE records ADD COLUMN checksum TEXT;"
-_FROM_3 = f"ALTER TABLE runs ADD COLUMN checksum TEXT; {_FROM_3_RECORDS}"
-_FROM_2 = f"ALTER TABLE runs ADD COLUMN about TEXT; ALTER TABLE runs ADD COLUMN seen TEXT; {_FROM_3}"
-_TABLES = f"""
-{_RUNS}
-CREATE TABLE IF NOT EXISTS records (
-  seq INTEGER PRIMARY KEY AUTOINCREMENT, key TEXT NOT NULL, run TEXT NOT NULL, phase INTEGER NOT NULL,
-  kind TEXT NOT NULL, component TEXT NOT NULL, digest TEXT NOT NULL, token INTEGER NOT NULL, at TEXT NOT NULL,
-  data TEXT NOT NULL, checksum TEXT, UNIQUE (key, phase)
-);
-CREATE INDEX IF NOT EXISTS records_of_run ON records (run);
-"""
-ROW = "seq, key, run, phase, kind, component, digest, token, at, data"
-HEAD = "number, run, plan, holder, started_at, finished_at, outcome, tally, resumed"
 
 
 @record
@@ -162,9 +130,9 @@ class Journal:
                 raise sqlite3.DatabaseError("the file is empty")
             if lost := lost_transactions(path):  # before it is opened: SQLite then drops them
                 why = f"its write-ahead log is damaged, and {lost} transactions lie behind that"
-                raise PicoError(without_end(path, why))
+                raise PicoError(lost_end(path, why))
             if marked and not path.exists():
-                raise PicoError(without_end(path, f"the file is gone, and run {marked} has begun"))
+                raise PicoError(lost_end(path, f"the file is gone, and run {marked} has begun"))
             try:
                 if not looking:
                     path.parent.mkdir(parents=True, exist_ok=True)
@@ -183,7 +151,7 @@ class Journal:
         known = self._db.execute("SELECT 1 FROM runs WHERE run = ?", (run,)).fetchone()
         if not known and (last is None or last[0] is not None):
             self._db.close()
-            raise PicoError(without_end(self.path, f"it does not hold run {run}, which has begun"))
+            raise PicoError(lost_end(self.path, f"it does not hold run {run}, which has begun"))
 
     def _open(self, name: str) -> None:
         self._db = sqlite3.connect(
@@ -205,9 +173,8 @@ class Journal:
             text = f"{self.path} is of a newer PICO (version {version})"
             raise PicoError(error("journal", text, hint=upgrade_hint()))
         if version < VERSION:
-            script = {0: _TABLES, 1: _FROM_1, 2: _FROM_2, 3: _FROM_3}[version]
             try:
-                self._db.executescript(f"BEGIN EXCLUSIVE;{script}PRAGMA user_version={VERSION};COMMIT;")
+                self._db.executescript(f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;")
             except sqlite3.OperationalError:
                 if not self._looking or version < 3:
                     raise
@@ -287,7 +254,7 @@ class Journal:
             try:
                 before = self._db.execute(whole, (run,)).fetchone()
                 if before and before[12] is not None and before[12] != sums_of_run(before[:12]):
-                    raise PicoError(named(self.path, f"the run {run}"))
+                    raise PicoError(damaged_row(self.path, f"the run {run}"))
                 self._db.execute(change, values)
                 row: tuple[Any, ...] | None = self._db.execute(whole, (run,)).fetchone()
                 if row is None:
@@ -463,7 +430,7 @@ class Journal:
         gone = [one[0] for one in own if not is_sound_record(one)]
         missing = [one for one in known.records if one[:2] not in sound]
         if len(gone) != len(missing) or seq not in gone:
-            raise PicoError(named(self.path, f"record {seq} of run {run}"))
+            raise PicoError(damaged_row(self.path, f"record {seq} of run {run}"))
         key, kind, component, at, data = missing[gone.index(seq)]
         intent = next((one for one in known.records if one[:2] == (key, "intent")), None)
         content = digest(operation_from_json(intent[4])) if intent else ""
@@ -477,7 +444,7 @@ class Journal:
             self._in_commits[run] = from_commit(self.path, run)
         known = self._in_commits[run]
         if known is None:
-            raise PicoError(named(self.path, what))
+            raise PicoError(damaged_row(self.path, what))
         return known
 
     def _run(self, row: tuple[Any, ...]) -> RunRecord:
@@ -569,40 +536,3 @@ def _cut_short(key: str, operation: Operation) -> OperationResult:
     hint = "plan again: it starts from what stands on the table now"
     found = error("unknown-outcome", text, hint=hint, address=operation.component)
     return OperationResult(key=key, outcome="unknown", error=found)
-
-
-def operation_from_json(data: Mapping[str, Any]) -> Operation:
-    """Return the operation whose `as_json` gave `data`."""
-    listed = {k: tuple(data[k]) for k in ("resources", "after") if k in data}
-    why = data["reason"]
-    reason = Reason(**{**why, "of": tuple(why.get("of", ()))})
-    return Operation(**{**data, **listed, "reason": reason})
-
-
-def result_from_json(data: Mapping[str, Any]) -> OperationResult:
-    """Return the result whose `as_json` gave `data`."""
-    found = data.get("error")
-    return OperationResult(
-        key=data["key"],
-        outcome=data["outcome"],
-        error=Diagnostic(**{k: v for k, v in found.items() if k != "source"}) if found else None,
-        before=observed_from_json(data.get("before")),
-        after=observed_from_json(data.get("after")),
-        seconds=float(data["seconds"]),
-        ended=float(data["ended"]),
-        data=data["data"],
-    )
-
-
-def observed_from_json(data: Mapping[str, Any] | None) -> ObservedComponent | None:
-    """Return the observed component whose `as_json` gave `data`; None for None."""
-    if data is None:
-        return None
-    return ObservedComponent(
-        presence=data["presence"],
-        pose=Pose(**data["pose"]) if "pose" in data else None,
-        uncertainty=Uncertainty(**data["uncertainty"]),
-        age=float(data["age"]),
-        values={k: ObservedValue(value=v.get("value"), status=v["status"]) for k, v in data["values"].items()},
-        how=data.get("how", ""),
-    )

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from pico.model.operation import operation_from_json
 from pico.model.quantities import Value
-from pico.runs.journal import operation_from_json
 
 if TYPE_CHECKING:
     from pico.model.observation import Observation

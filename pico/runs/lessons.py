@@ -10,14 +10,13 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.model.observation import ObservedComponent
+from pico.model.observation import ObservedComponent, observed_from_json
 from pico.model.pose import Pose, angle_between
 from pico.model.primitive import primitive
 from pico.model.setup import Setup
 from pico.model.trace.learned import work
 from pico.model.trace.run import TraceEvent
 from pico.runs.document import RecordedRun
-from pico.runs.journal import observed_from_json
 from pico.runs.operations import operations
 
 LOOKED = ("stereo", "known height", "in hand")

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from pico.disk import writing
+from pico.model.operation import operation_from_json
 from pico.model.record import digest
 from pico.runs.damage import (
     PHASES,
@@ -25,7 +26,8 @@ from pico.runs.damage import (
     marked_run,
     sums_of_run,
 )
-from pico.runs.journal import HEAD, ROW, Journal, as_text, is_emptied, operation_from_json
+from pico.runs.journal import Journal, as_text, is_emptied
+from pico.runs.journal_tables import HEAD, ROW
 from pico.runs.write_ahead import lost_transactions
 
 MOST = 10_000_000
@@ -89,7 +91,7 @@ class Salvage:
     lost: tuple[Lost, ...]
 
 
-def examined(path: Path) -> Examined:
+def examine(path: Path) -> Examined:
     """Return all that can be read of the journal at `path`; the file and what lies beside it stay untouched. Raises
     PicoError if they can't be copied."""
     marked = marked_run(path)

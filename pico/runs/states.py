@@ -15,11 +15,11 @@ from pico.model.diff import (
     slot_left,
     value_deviation,
 )
-from pico.model.observation import Observation, ObservedComponent, live_state, slot_at
+from pico.model.observation import Observation, ObservedComponent, live_state, observed_from_json, slot_at
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, place_of
-from pico.runs.journal import JournalRecord, observed_from_json
+from pico.runs.journal import JournalRecord
 
 
 def state_seen(setup: Setup, components: Mapping[str, Any]) -> LabState:

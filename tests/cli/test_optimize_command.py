@@ -321,8 +321,7 @@ def test_a_goal_that_is_not_met_is_told_in_the_list_of_runs(placed: Path, pico: 
 
 def test_a_known_key_of_an_optimization_gives_its_result_and_sets_nothing(placed: Path, pico: Pico) -> None:
     from pico.bench.bench import Bench
-    from pico.model.operation import OperationResult
-    from pico.runs.journal import operation_from_json
+    from pico.model.operation import OperationResult, operation_from_json
 
     assert pico("optimize", "centred", "--yes").code == 0
     pico("set", "ly_150.stage_y", "0.5", "--yes")

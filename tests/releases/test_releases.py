@@ -15,7 +15,8 @@ from bench_at import bench_at
 from commanding import Pico
 
 from pico.bench.bench import Bench
-from pico.runs.journal import VERSION, Journal
+from pico.runs.journal import Journal
+from pico.runs.journal_tables import VERSION
 
 
 def enclose(lab: Path) -> None:

@@ -12,7 +12,7 @@ from pico.edge.lease import BenchLock
 from pico.history.runs.carrying import carried_runs
 from pico.places.bench import BenchPlace
 from pico.runs.damage import SALVAGE, FromCommit, from_commit, marked_run
-from pico.runs.salvage import Examined, Salvage, examined, replace_journal, salvage, write_journal
+from pico.runs.salvage import Examined, Salvage, examine, replace_journal, salvage, write_journal
 
 NAMED = 5
 """So many runs are named one by one."""
@@ -34,7 +34,7 @@ class Salvaged:
 def examine_journal(root: Path, path: Path) -> Iterator[Diagnostic]:
     """Yield what is wrong with a journal of the lab in `root`: damaged rows by run, an error if no commit has it."""
     try:
-        found = examined(path)
+        found = examine(path)
     except PicoError as exc:
         yield from exc.diagnostics
         return
@@ -69,9 +69,9 @@ def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
     one, which is set aside and never deleted. Raises PicoError, exit code LOCKED if somebody moves the bench."""
     path = JOURNAL.path(place.folder)
     if not write:
-        return _salvaged(place, path, examined(path))
+        return _salvaged(place, path, examine(path))
     with BenchLock(place).held("pico doctor --journal"):
-        found = _salvaged(place, path, examined(path))
+        found = _salvaged(place, path, examine(path))
         if not found.damaged:
             return found
         new = path.with_name(f".{path.name}.new")

@@ -6,14 +6,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue, with_value
+from pico.model.observation import (
+    Observation,
+    ObservedComponent,
+    ObservedRobot,
+    ObservedValue,
+    observed_from_json,
+    with_value,
+)
 from pico.model.operation import Operation, Reason, searched_by
 from pico.model.plan import Plan
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.runs.document import RecordedRun
-from pico.runs.journal import observed_from_json
 from pico.runs.operations import OperationRun, operations
 
 REST = 1.0

@@ -33,7 +33,7 @@ class Apparatus:
         return any(part.sample for part in self.setup.lab.inventory.values())
 
     async def describe(self) -> Capabilities:
-        """Return what the device can do, at the speed of the run that goes on."""
+        """Return what the device can do, at the speed of the run in progress."""
         from pico.teleop.frames import STEPS
 
         able = await self.device.describe()

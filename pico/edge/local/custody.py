@@ -39,7 +39,7 @@ HALTED = error("halted", "the bench is halted: nothing more is started")
 
 
 class Tenant(Protocol):
-    """What goes on while somebody has the bench, see `pico.edge.local.runs`."""
+    """Work in progress under a lease, see `pico.edge.local.runs`."""
 
     @property
     def is_running(self) -> bool:
@@ -179,7 +179,7 @@ class Custody:
         self._lock.release()
 
     async def shut_over(self, seen: Observation | None = None) -> None:
-        """Shut lasers whose arming is over; nothing is shut here while nobody has the bench."""
+        """Shut lasers whose arming is over; does nothing while the bench is free."""
         if self._attempts is not None:
             await self._licensing.shut_over(seen)
 
@@ -191,14 +191,14 @@ class Custody:
         last: Asking | None = None
         for turn in count():
             if turn % LOOKS == LOOKS - 1 and (idle or self.tenant.is_open or self.tenant.is_running):
-                with suppress(PicoError):  # a journal that is gone is told by what moves
+                with suppress(PicoError):  # whatever moves reports a journal that is gone
                     await self.shut_over()
             asked = asked_to_stop(self._apparatus.place, lease.token)
             if asked is not None and asked != last:
                 last = asked
                 await (self.stop() if asked == "now" else self.halt())
                 if idle or self.tenant.is_open:
-                    self._obeying = None  # this task goes on to the end
+                    self._obeying = None  # this task runs to its end
                     await self.release(lease)
                     return
             await asyncio.sleep(OBEYS)
@@ -235,7 +235,7 @@ class Custody:
             self._lock.granting.require(under_way=under_way)
 
     def stops(self) -> Stopping:
-        """Return whether what goes on in steps is to stop, and how: it is asked to, or the lease is over."""
+        """Return whether a stepwise operation is to stop, and how: on request, or because the lease is over."""
         if not self._stopping:
             try:
                 self._require(under_way=True)
@@ -249,7 +249,7 @@ class Custody:
         await self.halt_for_client()
 
     async def halt_for_client(self) -> None:
-        """Halt, for the client of what is under way: nobody else is named."""
+        """Halt, on behalf of the client of the run in progress."""
         self.interrupt()
         await self._apparatus.device.halt()
 

@@ -66,7 +66,7 @@ class LocalEdge(Edge):
 
     @property
     def setup(self) -> Setup:
-        """The bench as it is now, at the speed of the run that goes on."""
+        """The bench as it is now, at the speed of the run in progress."""
         return self.apparatus.setup
 
     @property
@@ -237,7 +237,7 @@ class LocalEdge(Edge):
         return self.apparatus.journals.unended()
 
     def run_under_way(self) -> str | None:
-        """Return the run that an operation belongs to now, None if none goes on."""
+        """Return the run that an operation belongs to now, None if no run is in progress."""
         return self.runs.under_way()
 
     async def start(self, job: Job, run: str) -> str:

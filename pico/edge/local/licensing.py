@@ -1,4 +1,4 @@
-"""What an edge lets emit: armings and their end, the light that samples had, and runs that nobody attends."""
+"""What an edge lets emit: armings and their end, the light that samples had, and runs that run unattended."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ class Licensing:
         return False
 
     def arming_over(self) -> bool:
-        """Return whether an arming has ended since this was asked last, while nobody has the bench."""
+        """Return whether an arming has ended since this was asked last, while the bench is free."""
         from pico.edge import emission
 
         own = self._apparatus
@@ -129,7 +129,7 @@ class Licensing:
 
         return Dosing(own.setup, own.place, guarded, observe)
 
-    # runs that nobody attends
+    # runs that run unattended
 
     @property
     def alone(self) -> Alone:

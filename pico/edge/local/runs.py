@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Runs:
-    """The runs of one bench: at most one goes on, which may be a step of the one that is open."""
+    """The runs of one bench: at most one is in progress, which may be a step of the open one."""
 
     def __init__(
         self, apparatus: Apparatus, sight: Sight, licensing: Licensing, custody: Custody, kept: KeptLab
@@ -42,7 +42,7 @@ class Runs:
         self._open: OpenRun | None = None
         self._listeners: list[Callable[[Event], None]] = []
 
-    # what goes on, for custody of the bench
+    # runs in progress, for custody of the bench
 
     @property
     def is_running(self) -> bool:
@@ -87,7 +87,7 @@ class Runs:
             self._apparatus.journals.end(opened.id, outcome, opened.counts())
 
     def under_way(self) -> str | None:
-        """Return the run that an operation belongs to now, None if none goes on."""
+        """Return the run that an operation belongs to now, None if no run is in progress."""
         under_way = self._open or self._running
         return under_way.id if under_way is not None else None
 

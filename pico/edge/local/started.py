@@ -52,7 +52,7 @@ class StartedRuns:
         return self._runs[run]
 
     def goes_on_with(self, run: str) -> bool:
-        """Return whether a run that was started here goes on."""
+        """Return whether a run that was started here is in progress."""
         task = self[run].task if self.knows(run) else None
         return task is not None and not task.done()
 

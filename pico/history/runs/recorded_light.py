@@ -11,10 +11,9 @@ from typing import Any
 from pico.history.lab.folder import LabFolder
 from pico.history.runs.loading import runs_in
 from pico.model.measurement import Measurement, measurement_from_json
-from pico.model.observation import ObservedComponent
+from pico.model.observation import ObservedComponent, observed_from_json
 from pico.model.primitive import primitive
 from pico.model.trace.run import STRENGTH, TraceEvent
-from pico.runs.journal import observed_from_json
 from pico.runs.trace import measurement_in
 
 _ALONG = ("interlock", "parked")
