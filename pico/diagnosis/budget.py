@@ -109,6 +109,8 @@ def error_budget(nominal: Nominal, of: str, looks: Looks | None = None) -> Error
 def tighter(budget: ErrorBudget, wanted: float) -> tuple[Tighter, ...]:
     """Return to what errors must be held for a result to be known to `wanted`, one standard deviation within the
     tolerances: those that contribute most, each then as much as the others; none where all can stay as it is."""
+    if wanted >= budget.tolerated:  # else the roundings below may take a last digit off a tolerance
+        return ()
     by: dict[str, list[Contribution]] = {}
     for row in budget.rows:
         by.setdefault(row.address, []).append(row)

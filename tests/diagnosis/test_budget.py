@@ -7,7 +7,7 @@ import statistics
 from dataclasses import replace
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from pico.diagnosis.budget import Contribution, ErrorBudget, error_budget, tighter
@@ -161,6 +161,7 @@ def rows(*effects: float) -> tuple[Contribution, ...]:
 
 
 @given(st.lists(st.floats(1e-6, 1e3), min_size=1, max_size=8), st.floats(1e-3, 2.0))
+@example([1.0, 1.5], 1.0)
 def test_what_is_held_as_it_says_leaves_what_is_wanted(effects: list[float], share: float) -> None:
     budget = ErrorBudget("x", {}, 1.0, "um", rows(*effects))
     wanted = share * budget.tolerated
