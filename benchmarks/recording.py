@@ -48,14 +48,16 @@ with pico.open(sys.argv[1], fidelity="kinematic") as bench, bench.record("killed
         bench.measure("p1.angle")
         print("measured", flush=True)
         if n % 20 == 10:
-            bench["p2"].move(x=520 + n % 3, y=420)
+            bench["p2"].move(x=510 + (10 * int(sys.argv[2]) + n // 20) % 20, y=420)  # never where it stands
             print("moved", flush=True)
 """
 
 
 def killed(folder: Path, seed: int) -> str:
     """Kill a script at a random instant, and return what is not true of what it leaves; empty where all is."""
-    with subprocess.Popen([sys.executable, "-c", SCRIPT, str(folder)], stdout=subprocess.PIPE, text=True) as script:
+    with subprocess.Popen(
+        [sys.executable, "-c", SCRIPT, str(folder), str(seed)], stdout=subprocess.PIPE, text=True
+    ) as script:
         assert script.stdout is not None
         script.stdout.readline()
         time.sleep(random.Random(seed).uniform(0.0, 1.5))

@@ -282,7 +282,7 @@ def scheduler(trials: int) -> None:
             table = Table.load(root / "table.json", Chaos(random.Random(1), healed=True))
             journal = KilledJournal(root / "journal.sqlite")
             bench = instant(root, table, journal)
-            bench.device = Slow(table)  # type: ignore[assignment]
+            bench.apparatus.device = Slow(table)  # type: ignore[assignment]
             state = live_state(SETUP, table.observe()).as_json()
             plan = Plan(
                 lab=LabRef(name="toy", digest=DIGEST), backend="toy", fidelity="toy", base=Base(state=state),

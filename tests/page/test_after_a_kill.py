@@ -41,10 +41,10 @@ class Gui:
 
 
 @contextmanager
-def opened(lab: Path, environment: dict[str, str]) -> Iterator[Gui]:
+def opened(lab: Path, environment: dict[str, str], *more: str) -> Iterator[Gui]:
     """Run `pico gui` until it has told its address; ended where nobody else does."""
     going = subprocess.Popen(
-        [*PICO, "-C", lab, "--json", "gui", "--no-open"], env=environment, text=True,
+        [*PICO, "-C", lab, "--json", "gui", "--no-open", *more], env=environment, text=True,
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, start_new_session=True,
     )  # fmt: skip
     try:
@@ -93,7 +93,7 @@ def test_a_page_that_is_told_to_end_halts_the_run_at_its_desk(tmp_path: Path, nu
     environment = os.environ | {"XDG_CONFIG_HOME": str(tmp_path / "config"), "XDG_STATE_HOME": str(tmp_path / "state")}
     lab = tmp_path / "lab"
     subprocess.run([*PICO, "init", "--example", "shel", lab], env=environment, check=True, capture_output=True)
-    with opened(lab, environment) as page:
+    with opened(lab, environment, "--fidelity", "physics") as page:  # slow enough to be interrupted
         let_in = page.ask("/api/session", {"code": page.address.partition("#code=")[2]})
         cookie = str(let_in.getheader("set-cookie")).partition(";")[0]
         asked = {"words": ["E1-1", "-y"], "session": "s1", "bench": "bench1"}
