@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     import pytest
 
-ASKING = frozenset({"backends", "bench", "cli", "edge", "execution", "history", "releases"})
+ASKING = frozenset(
+    {"backends", "bench", "cli", "edge", "execution", "history", "recipes", "releases", "scripting", "server"}
+)
 """Folders of tests that ask arms for paths and test something else."""
 _answers: dict[Hashable, Any] = {}
 _benches: dict[int, tuple[Any, str]] = {}

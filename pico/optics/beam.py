@@ -9,6 +9,7 @@ Lengths are in mm, powers in mW; |E|^2 is the power of a wave with b = 0.
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -21,7 +22,7 @@ from pico.optics import gaussian
 from pico.optics.coherence import Spectrum
 from pico.optics.gaussian import Matrix
 from pico.optics.polarization import Field, Vector, carried, joined, plane_of_incidence, product, split, stokes
-from pico.optics.rays import Rays, Surface, cross, rays
+from pico.optics.rays import Surface, cross_alone
 
 _SAME = 1e-15  # 1/mm: shifts of waves that do not differ
 _NOTHING = 1e-14
@@ -64,12 +65,12 @@ class Beam:
     ghost: bool = False
     spectra: tuple[Spectrum, ...] = ()
 
-    @property
+    @cached_property
     def up(self) -> Vector:
         """The second transverse axis (3,)."""
         return product(self.along, self.across)
 
-    @property
+    @cached_property
     def frame(self) -> NDArray[np.float64]:
         """The transverse axes as rows (2, 3)."""
         return np.stack([self.across, self.up])
@@ -89,7 +90,7 @@ class Beam:
         """The power [mW]."""
         return self.of_light[0]
 
-    @property
+    @cached_property
     def widths(self) -> tuple[float, float, float]:
         """The 1/e^2 radii [mm] and the direction of the larger one, see `gaussian.widths`; of one wave."""
         return gaussian.widths(self.curvature, self.wavelength * self.quality / self.index)
@@ -117,7 +118,7 @@ def _moments(beam: Beam) -> tuple[float, NDArray[np.float64]]:
     With A = k Im M, the overlap of waves i and j is exp(-k^2 B' A^-1 B / 4), B = b_i - conj(b_j), and its first moment
     (i k / 2) A^-1 B times that.
     """
-    k, inverse = beam.wave_number, np.linalg.inv(beam.wave_number * np.imag(beam.curvature))
+    k, inverse = beam.wave_number, gaussian.inverse(beam.wave_number * np.imag(beam.curvature))
     fields, shifts = _rows([w.field for w in beam.waves], 3), _rows([w.shift for w in beam.waves], 2)
     groups = np.array([w.group for w in beam.waves])
     apart = shifts[:, None] - shifts.conj()  # (n, n, 2)
@@ -138,30 +139,17 @@ def forward(beam: Beam, distance: float) -> Beam:
     """Return a beam after a distance [mm] in its medium."""
     if distance == 0.0:
         return beam
-    stretch = gaussian.ONE + distance * beam.curvature
-    inverse, size = np.linalg.inv(stretch), np.linalg.det(stretch)
-    gouy = np.exp(-0.5j * _phase(beam.curvature, distance)) if size else 1.0
-    k, shifts = beam.wave_number, _rows([w.shift for w in beam.waves], 2)
-    turned = shifts @ inverse.T
-    phases = gouy * np.exp(-0.5j * k * distance * (shifts * turned).sum(-1))
-    waves = tuple(
-        Wave(w.field * phase, shift, w.group) for w, phase, shift in zip(beam.waves, phases, turned, strict=True)
-    )
+    gouy = cmath.exp(-0.5j * gaussian.phase(beam.curvature, distance))
+    back, k = gaussian.inverse(gaussian.stretch(beam.curvature, distance)), beam.wave_number
+    waves = []
+    for wave in beam.waves:
+        turned = back @ wave.shift
+        phase = gouy * cmath.exp(-0.5j * k * distance * complex(wave.shift @ turned))
+        waves.append(Wave(wave.field * phase, turned, wave.group))
     return replace(
-        beam, at=beam.at + distance * beam.along, curvature=gaussian.forward(beam.curvature, distance), waves=waves,
-        path=beam.path + beam.index * distance, length=beam.length + distance,
+        beam, at=beam.at + distance * beam.along, curvature=gaussian.forward(beam.curvature, distance),
+        waves=tuple(waves), path=beam.path + beam.index * distance, length=beam.length + distance,
     )  # fmt: skip
-
-
-def _phase(curvature: Matrix, distance: float) -> float:
-    """Return the phase of det(1 + d M), followed from d = 0: each axis turns by less than pi."""
-    return float(np.angle(1 + distance * np.linalg.eigvals(curvature)).sum())
-
-
-def surface_of(beam: Beam, surface: Surface) -> Rays | None:
-    """Return the chief ray as it leaves a surface, None where it misses."""
-    met = cross(surface, rays(beam.at, beam.along))
-    return met if met.alive[0] else None
 
 
 def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: Amplitudes | None = None) -> Beam | None:
@@ -170,10 +158,12 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
     `amplitudes`: of s and p for the cosine of incidence; without, all passes, or is sent back as a perfect conductor
     does.
     """
-    done = surface_of(beam, replace(surface, reflects=reflect))
-    if done is None:
+    met = cross_alone(
+        surface if surface.reflects == reflect else replace(surface, reflects=reflect), beam.at, beam.along
+    )
+    if met is None:
         return None
-    came, along = forward(beam, float((done.at[0] - beam.at) @ beam.along)), done.along[0]
+    came, along = forward(beam, float((met[0] - beam.at) @ beam.along)), met[1]
     normal = surface.normal - surface.curvature * (came.at - surface.vertex)
     normal = normal / np.linalg.norm(normal)
     facing = float(beam.along @ normal)
@@ -188,7 +178,7 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
         came.curvature, before, after, (beam.index, index), (facing, float(along @ normal)),
         bent,
     )  # fmt: skip
-    back = np.linalg.inv(after).T @ before.T * (beam.index / index)
+    back = gaussian.inverse(after).T @ before.T * (beam.index / index)
     of_s, of_p = amplitudes(abs(facing)) if amplitudes else (-1.0, 1.0) if reflect else (1.0, 1.0)
     waves = []
     for wave in came.waves:

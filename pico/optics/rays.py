@@ -6,6 +6,7 @@ are in mm, in any one frame; directions have length 1.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -83,6 +84,42 @@ def cross(surface: Surface, begun: Rays) -> Rays:
         along, whole = _refracted(begun.along, normals, facing, index / np.where(onward, surface.after, surface.before))
         alive = alive & ~whole
     return Rays(at, along, begun.path + index * far, alive)
+
+
+def cross_alone(surface: Surface, at: Array, along: Array) -> tuple[Array, Array] | None:
+    """Return the point (3,) where one ray of direction `along`, of length 1, leaves a surface, and how it goes on; None
+    where it misses it or is totally reflected. The same as `cross`, in a tenth of the time."""
+    (px, py, pz), (vx, vy, vz) = at.tolist(), surface.vertex.tolist()
+    (x, y, z), (nx, ny, nz) = along.tolist(), surface.normal.tolist()
+    c, ox, oy, oz = surface.curvature, px - vx, py - vy, pz - vz
+    height, facing = ox * nx + oy * ny + oz * nz, x * nx + y * ny + z * nz
+    half = facing - c * (ox * x + oy * y + oz * z)
+    rest = c * (ox * ox + oy * oy + oz * oz) - 2 * height
+    root = half * half - c * rest
+    if root < 0 or abs(facing) <= 1e-12:
+        return None
+    aside = math.copysign(math.sqrt(root), facing)
+    far = rest / (half + aside) if half * facing > 0 else (half - aside) / c
+    if far <= -_NEAR or c * (height + far * facing) >= 1:
+        return None
+    ox, oy, oz = ox + far * x, oy + far * y, oz + far * z
+    depth = ox * nx + oy * ny + oz * nz
+    if ox * ox + oy * oy + oz * oz - depth * depth > surface.radius**2:
+        return None
+    nx, ny, nz = nx - c * ox, ny - c * oy, nz - c * oz
+    size = math.sqrt(nx * nx + ny * ny + nz * nz)
+    nx, ny, nz = nx / size, ny / size, nz / size
+    facing = x * nx + y * ny + z * nz
+    if surface.reflects:
+        ratio, bend = 1.0, -2 * facing
+    else:
+        ratio = surface.before / surface.after if facing >= 0 else surface.after / surface.before
+        square = 1 - ratio * ratio * (1 - facing * facing)
+        if square < 0:
+            return None
+        bend = math.copysign(math.sqrt(square), facing) - ratio * facing
+    on = np.array([ratio * x + bend * nx, ratio * y + bend * ny, ratio * z + bend * nz])
+    return np.array([ox + vx, oy + vy, oz + vz]), on
 
 
 def _distance(surface: Surface, begun: Rays) -> tuple[Array, NDArray[np.bool_]]:
