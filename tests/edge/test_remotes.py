@@ -16,6 +16,7 @@ from relaying import TOKEN, point, relayed
 from pico.bench.bench import Bench
 from pico.control.gate import Command, Record
 from pico.diagnostics import ExitCode, PicoError
+from pico.edge.network import line
 from pico.edge.network.enrolment import Enrolment, read_enrolment
 from pico.edge.network.kept_gate import KeptGate
 from pico.edge.network.meant import meant
@@ -187,6 +188,7 @@ def test_who_is_not_let_in_and_who_finds_nobody_is_told_what_to_do(
         point(lab, url)
         with pytest.raises(PicoError, match="is a sim bench, and this is for a hardware one"):
             Bench.open(lab, bench="shel/bench1", backend="hardware")
+    monkeypatch.setattr(line, "PATIENCE", 0.5)  # this process has met the coordinator, and would wait for it
     with pytest.raises(PicoError, match="does not answer: Connection refused"):
         Bench.open(lab)
     assert "default" not in json.loads((lab / ".git" / "pico" / "remotes.json").read_bytes())

@@ -15,6 +15,7 @@ from pico.diagnostics import PicoError, error
 from pico.server.desk.desks import Desking
 from pico.server.desk.hiding import Hiding
 from pico.server.git.hosting import git, repository
+from pico.server.relay import dispatch
 
 
 @pytest.mark.parametrize("name", ["books", "bücher", 'a "b" c'])
@@ -39,7 +40,10 @@ def test_paths_of_desks_begin_at_the_desk_and_others_in_the_books(tmp_path: Path
         assert (told.summary, told.hint) == (hidden, hidden)
 
 
-def test_a_lab_that_is_a_bare_repository_is_told_of_without_the_coordinators_folders(tmp_path: Path) -> None:
+def test_a_lab_that_is_a_bare_repository_is_told_of_without_the_coordinators_folders(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(dispatch, "AWAY", 0.2)  # no edge will ever come
     with served(tmp_path / "books", desks=Desking(WARM)) as serving:
         serving.bench("port/bench1")
         vera = serving.person("vera", "viewer")
