@@ -29,6 +29,7 @@ class Reading:
     value: Value | Mapping[str, Value] | None
     array: NDArray[Any] | None = None
     sigma: float | Mapping[str, float] | None = None
+    noise: float | Mapping[str, float] | None = None
     settings: Mapping[str, Value] = field(default_factory=dict)
     kernel: str | None = None
     kernel_version: str | None = None
@@ -59,6 +60,7 @@ def measurement(
         array=None if reading.array is None else keep_array(store_of(root), reading.array),
         unit=known.unit or reading.unit,
         sigma=reading.sigma,
+        noise=reading.noise,
         unknown=reading.unknown or None,
         settings={**own, **reading.settings},
         time=seen.time,

@@ -367,7 +367,7 @@ class _Run:
         """Return the outputs of a goal, with their standard deviations to first order, and its signal."""
         if full := next((m for m in taken.values() if "not saturated" in m.not_assured), None):
             return Reading(unknown=f"{full.address} is saturated: {full.not_assured['not saturated']}", glaring=True)
-        values, sigmas, unknown = {}, {}, ""
+        values, sigmas, noises, unknown = {}, {}, dict[str, float](), ""
         for name in self._language.names:
             address = next(
                 (name.removeprefix(f"{x}.") for x in self.goal.looks or () if name.startswith(f"{x}.")), name
@@ -379,7 +379,8 @@ class _Run:
             if found is None or known is None:
                 unknown = unknown or next((m.unknown for m in taken.values() if m.unknown), f"{name} was not measured")
                 continue
-            values[name], sigmas[name] = known, _sigma(found, number)
+            values[name], sigmas[name] = known, _of_number(found.sigma, number)
+            noises[name] = sigmas[name] if found.noise is None else _of_number(found.noise, number)
         result: dict[str, float] = {}
         outputs = dict(zip(self.problem.outputs, self.goal.expressions, strict=False))
         for output, text in (*outputs.items(), *(((self.goal.signal, self.goal.signal),) if self.goal.signal else ())):
@@ -388,6 +389,8 @@ class _Run:
             except ExpressionError as exc:
                 return Reading(values=result, unknown=unknown or str(exc))
             result[output], result[f"{output}_sigma"] = value, sigma
+            if noises != sigmas:
+                result[f"{output}_noise_sigma"] = self._told(text, values, noises)[1]
         return Reading(values=result)
 
     def _told(self, text: str, values: Mapping[str, float], sigmas: Mapping[str, float]) -> tuple[float, float]:
@@ -497,10 +500,11 @@ def _weak(found: Measurement) -> bool:
     return any(isinstance(v, int | float) and isinstance(s, int | float) and s > _WEAK * abs(v) for v, s in pairs)
 
 
-def _sigma(found: Measurement, number: str) -> float:
-    if isinstance(found.sigma, Mapping):
-        return float(found.sigma.get(number.rpartition(".")[2], 0.0))
-    return float(found.sigma or 0.0)
+def _of_number(sigma: float | Mapping[str, float] | None, number: str) -> float:
+    """Return the standard deviation of one number of a measurement; 0 if unknown."""
+    if isinstance(sigma, Mapping):
+        return float(sigma.get(number.rpartition(".")[2], 0.0))
+    return float(sigma or 0.0)
 
 
 def _fault(name: str, unit: str, last: float, wrong: Diagnostic | None) -> str:

@@ -34,12 +34,13 @@ class ArrayRef:
 class Measurement:
     """One measurement of a `measurable` of a component, or of a camera over the bench.
 
-    `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than goes
-    into a line. `unit`; where numbers by name have several, in their order. `unknown`: why there is no value,
-    though it was measured. `sigma`: one standard deviation, as the
-    value. `settings`: what it depends on, such as exposure, gain and background. `time` on the bench's clock [s], `at`
-    by the wall, UTC. `kernel` and its version: what made the value of what a device gave. `assured`: what was seen to
-    hold; `not_assured`: what was not, and why.
+    `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than
+    goes into a line. `unit`; where numbers by name have several, in their order. `unknown`: why there is no value,
+    though it was measured. `sigma`: one standard deviation, as the value; `noise`: the part of it that differs
+    between readings of the same instrument, which does not hold what they have in common (the calibration of a
+    meter); None: all of it. `settings`: what it depends on, such as exposure, gain and background. `time` on the
+    bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of what a device gave.
+    `assured`: what was seen to hold; `not_assured`: what was not, and why.
     """
 
     schema: str = FORMAT.schema
@@ -50,6 +51,7 @@ class Measurement:
     unit: str = ""
     unknown: str | None = None
     sigma: float | Mapping[str, float] | None = None
+    noise: float | Mapping[str, float] | None = None
     settings: Mapping[str, Value] = field(default_factory=dict)
     time: float = 0.0
     at: str = ""

@@ -64,11 +64,13 @@ def camera_frame(
 
 @dataclass(frozen=True, slots=True)
 class Power:
-    """A reading [mW or V], its standard deviation, and whether it was more than the instrument can tell."""
+    """A reading [mW or V], its standard deviation, and whether it was more than the instrument can tell. `noise`: the
+    part of the standard deviation that differs from reading to reading; None: all of it."""
 
     value: float
     sigma: float
     saturated: bool = False
+    noise: float | None = None
 
 
 def power_on(arrivals: tuple[Arrival, ...], part: Part, aside: float = 0.0) -> float:
@@ -138,4 +140,4 @@ def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, num
     least, greatest = part.number("least_power", "mW", 0.0), part.number("greatest_power", "mW", math.inf)
     share = part.number("uncertainty", "", 0.0) / 2
     read = power * (1 + share * own) * part.unseen.gain + part.unseen.dark + least * noise
-    return Power(min(read, greatest), math.hypot(share * power, least), read >= greatest)
+    return Power(min(read, greatest), math.hypot(share * power, least), read >= greatest, least)

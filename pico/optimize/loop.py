@@ -12,7 +12,7 @@ from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 from pico.optimize.extremum import ends, same, unsaid
-from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, Solver
+from pico.optimize.problem import Algorithm, Point, Problem, Short, Solution, Solver, noise_of
 
 STOPPED = "it was stopped"
 """Why it ended where somebody asked for that."""
@@ -52,9 +52,10 @@ class Ask:
 
 @dataclass(frozen=True)
 class Reading:
-    """What came of an ask: outputs with their `<output>_sigma`, none where it is dark or a frame was lost (`unknown`
-    says why; `glaring`: there is too much light; `missed`: no reading came, so that nobody knows whether there is
-    light); `time` on the bench's clock [s]; `fault`: what does not answer, with its last reading."""
+    """What came of an ask: outputs with their `<output>_sigma` (see `pico.optimize.problem`), none where it is dark
+    or a frame was lost (`unknown` says why; `glaring`: there is too much light; `missed`: no reading came, so that
+    nobody knows whether there is light); `time` on the bench's clock [s]; `fault`: what does not answer, with its
+    last reading."""
 
     values: Mapping[str, float] = field(default_factory=dict)
     time: float = 0.0
@@ -313,7 +314,7 @@ class _Walk:
             return bool(ends(self.problem, last.result)) or any(_LEAP * a < b for a, b in pairwise(powers))
         if self.limits.signal:
             return False
-        least = {n: _SURE * t.result.get(f"{output}_sigma", 0.0) for n, t in (("first", first), ("last", last))}
+        least = {n: _SURE * noise_of(t.result, output) for n, t in (("first", first), ("last", last))}
         return abs(last.result.get(output, math.nan)) < least["last"] and first.result[output] > 2 * least["first"]
 
     def _changed(self, first: Mapping[str, float], again: Mapping[str, float]) -> str:
@@ -364,7 +365,7 @@ def believed(problem: Problem, limits: Limits, result: Mapping[str, float]) -> b
     if limits.signal:
         return result.get(limits.signal, math.nan) >= limits.least
     output = problem.outputs[0]  # of a power what stands out of its noise
-    return problem.aim != "maximize" or result[output] > _SURE * result.get(f"{output}_sigma", 0.0)
+    return problem.aim != "maximize" or result[output] > _SURE * noise_of(result, output)
 
 
 def started(problem: Problem, at: Mapping[str, float]) -> Problem:

@@ -2,7 +2,8 @@
 
 That is the interface of Xopt's and blop's generators: points and results are dictionaries by name. Of a result an
 output that is missing, or NaN, was not measured: it was dark there, or a frame was lost. `<output>_sigma` is its one
-standard deviation.
+standard deviation, `<output>_noise_sigma` the part of that which differs between readings of one
+instrument; without it, all of it does. A meter's error of scale is in the first alone.
 """
 
 from __future__ import annotations
@@ -152,11 +153,15 @@ class Problem:
         if not math.isfinite(cost):
             return None
         name = "from the goal, in tolerances" if self.aim == "reach" else self.outputs[0]
-        return {"name": name, "value": -cost if self.aim == "maximize" else cost, "sigma": self.noise(result)}
+        sigma = self._spread(result, {n: result.get(f"{n}_sigma", 0.0) or 0.0 for n in self.outputs})
+        return {"name": name, "value": -cost if self.aim == "maximize" else cost, "sigma": sigma}
 
     def noise(self, result: Mapping[str, float]) -> float:
-        """Return one standard deviation of the cost of a result; 0 where nobody says."""
-        sigmas = {name: result.get(f"{name}_sigma", 0.0) or 0.0 for name in self.outputs}
+        """Return one standard deviation by which the cost differs between readings of the same; 0 if unknown."""
+        return self._spread(result, {n: noise_of(result, n) for n in self.outputs})
+
+    def _spread(self, result: Mapping[str, float], sigmas: Mapping[str, float]) -> float:
+        """Return one standard deviation of the cost of a result, by those of its outputs."""
         if self.aim != "reach":
             return sigmas[self.outputs[0]]
         cost = self.cost(result)
@@ -164,6 +169,12 @@ class Problem:
             return math.hypot(*(s / (self.tolerance.get(n) or 1.0) for n, s in sigmas.items()))
         parts = ((off / (self.tolerance.get(n) or 1.0) ** 2 / cost * sigmas[n]) for n, off in self.off(result).items())
         return math.hypot(*parts)
+
+
+def noise_of(result: Mapping[str, float], output: str) -> float:
+    """Return one standard deviation by which readings of the same output differ, without what all of them have in
+    common; 0 if unknown."""
+    return result.get(f"{output}_noise_sigma", result.get(f"{output}_sigma", 0.0)) or 0.0
 
 
 def missing(algorithm: str, package: str) -> PicoError:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 
-from pico.optimize.problem import Problem
+from pico.optimize.problem import Problem, noise_of
 from pico.optimize.stepwise import Result, Steps
 
 PARAMETERS: Mapping[str, float] = {"pitch": 0.25, "least": 0.0, "most": 400.0}
@@ -20,7 +20,7 @@ def bright(problem: Problem, result: Result, least: float) -> bool:
     if problem.aim == "reach":
         return True
     output = problem.outputs[0]
-    return result[output] > (least or 5 * result.get(f"{output}_sigma", 0.0))
+    return result[output] > (least or 5 * noise_of(result, output))
 
 
 def searched(problem: Problem, places: Iterator[tuple[float, float]], parameters: Mapping[str, float]) -> Steps:

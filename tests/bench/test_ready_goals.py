@@ -96,6 +96,24 @@ def test_a_beam_is_walked_through_two_irises_that_were_dark(tmp_path: Path) -> N
         assert "no beam comes through" in refused(it, "through", "near", "near")
 
 
+@pytest.mark.parametrize("goal", ["peak", "null"])
+def test_the_scale_error_of_a_meter_is_no_noise_between_its_readings(tmp_path: Path, goal: str) -> None:
+    parts = """\
+  p1: {type: linear_polarizer, pose: {x: 520, y: 260, yaw: 0}}
+  meter: {type: power_meter, pose: {x: 800, y: 260, yaw: 0}}
+"""
+    with bench(tmp_path, parts, p1={"angle": 25}, meter={"wavelength": 632.8}) as it:
+        found = it.optimize(goal, "p1", "meter")
+        assert found.met and found.last is not None, found
+        assert found.measurements <= 12
+        share = it.setup.type_of("meter").number("uncertainty", "") or 0.0
+        power, sigma = found.last["objective"], found.last["objective_sigma"]
+        assert sigma > 0.4 * share * abs(power)  # what is shown keeps the calibration
+        read = it.measure("meter.power")
+        read = it.measure("meter.power").measurement
+        assert read.noise is not None and isinstance(read.sigma, float) and read.noise <= read.sigma
+
+
 def test_a_mirror_sends_light_back_through_the_iris(tmp_path: Path) -> None:
     parts = """\
   split: {type: beam_splitter_50_50, pose: {x: 420, y: 260, yaw: 0}}

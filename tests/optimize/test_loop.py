@@ -313,6 +313,29 @@ def test_what_changes_by_no_more_than_its_noise_is_no_maximum(algorithm: str, si
     assert asks[-1].point == PEAK.start  # the best of noise is none: it is left where it began
 
 
+@pytest.mark.parametrize("algorithm", ["malus", *HIGH_ONES])
+def test_an_error_of_scale_that_all_readings_have_in_common_is_no_noise(algorithm: str) -> None:
+    """Each search does the same, and is met as well, with a meter of unknown scale as with one that is calibrated."""
+    count = 1 if algorithm == "malus" else 2
+    problem = Problem((Variable("m.tip", -90, 90, 20, period=180), Variable("m.tilt", -30, 30, 4))[:count],
+                      ("pd.power",), "maximize")  # fmt: skip
+    rng = random.Random(3)
+    flicker = [1 + 1e-4 * rng.gauss(0, 1) for _ in range(400)]
+
+    def read(scale: float) -> Callable[[Point, int], dict[str, float]]:
+        def at(point: Point, number: int) -> dict[str, float]:
+            power = math.cos(math.radians(point["m.tip"] + 7)) ** 2 * math.exp(-((point.get("m.tilt", 0) / 20) ** 2))
+            power *= flicker[number % 400]
+            return {"pd.power": power, "pd.power_sigma": math.hypot(scale, 1e-4) * power,
+                    "pd.power_noise_sigma": 1e-4 * power}  # fmt: skip
+
+        return at
+
+    known, unknown = (driven(problem, algorithm, read(scale), Limits(measurements=400)) for scale in (0.0, 0.3))
+    assert known[0].met and unknown[0].met, unknown[0].why
+    assert unknown[1] == known[1]
+
+
 @pytest.mark.parametrize("aim", ["maximize", "minimize"])
 def test_where_a_tunable_can_go_no_further_there_may_be_more(aim: str) -> None:
     sign = 1 if aim == "maximize" else -1

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.diagnostics import PicoError, error
-from pico.optimize.problem import Declaration, Problem, Short
+from pico.optimize.problem import Declaration, Problem, Short, noise_of
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -90,7 +90,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
         at, goal = np.array([best[n] for n in names]), _within(problem, fit.middle, back)
         step, short = goal - at, goal - fit.middle
         drop, most = float(step @ shape @ step), fit.peak - float(short @ shape @ short)
-        noise, unsure = best.get(f"{output}_sigma", 0.0) / best[output], float(np.trace(fit.unsure)) > _UNSURE
+        noise, unsure = noise_of(best, output) / best[output], float(np.trace(fit.unsure)) > _UNSURE
         there = drop <= parameters["left"] + noise
         if there and not unsure and most - math.log(best[output]) <= 0.03 + 2 * noise:
             return "there is no more power to be gained"
@@ -122,7 +122,7 @@ class _Fit:
 
 def _bright(result: Result, output: str) -> bool:
     value = result.get(output, math.nan)
-    return math.isfinite(value) and value > 3 * result.get(f"{output}_sigma", 0.0) and value > 0
+    return math.isfinite(value) and value > 3 * noise_of(result, output) and value > 0
 
 
 def _back(shape: Array) -> Array:
@@ -151,7 +151,7 @@ def _fitted(names: list[str], output: str, seen: list[Result], shape: Array) -> 
     away = u - best
     height = np.log(power) + np.einsum("ni,ij,nj->n", away, shape, away)
     away_by = np.einsum("ni,ij,nj->n", away, shape, away)
-    sigma = np.array([max(r.get(f"{output}_sigma", 0.0) / r[output], 2e-3) for r in seen])
+    sigma = np.array([max(noise_of(r, output) / r[output], 2e-3) for r in seen])
     weight = 1 / np.hypot(sigma, _ARMS * away_by)
     back = _back(shape)
     rows = np.column_stack([np.ones(len(seen)), 2 * away @ np.linalg.inv(back).T]) * weight[:, None]

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.optimize.extremum import FLICKER
-from pico.optimize.problem import Declaration, Problem, Short, Solution, Variable
+from pico.optimize.problem import Declaration, Problem, Short, Solution, Variable, noise_of
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -144,7 +144,7 @@ def _scaled(output: str, variable: Variable, seen: list[Result]) -> tuple[Array,
     most = max(abs(r[output]) for r in seen) or 1.0
     share = [abs(r[output]) / most for r in seen]
     sigma = [
-        max(math.hypot(s / most, FLICKER * y) if (s := r.get(f"{output}_sigma", 0.0)) else _NOISE * y, _FLOOR)
+        max(math.hypot(s / most, FLICKER * y) if (s := noise_of(r, output)) else _NOISE * y, _FLOOR)
         for r, y in zip(seen, share, strict=True)
     ]
     return np.array([r[variable.name] for r in seen]), np.array([r[output] / most for r in seen]), np.array(sigma)

@@ -7,7 +7,7 @@ from collections.abc import Generator, Mapping
 from dataclasses import dataclass
 
 from pico.optimize.extremum import same
-from pico.optimize.problem import Declaration, Point, Problem, Short, Variable
+from pico.optimize.problem import Declaration, Point, Problem, Short, Variable, noise_of
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -38,7 +38,7 @@ def _steps(problem: Problem, parameters: Mapping[str, float]) -> Steps:
             found = yield from _line(problem, variable, here, steps[variable.name])
             here, steps[variable.name] = found.best, found.step
             flat += [variable.name] if found.flat else []
-        noise = here.get(f"{output}_sigma", 0.0) / here[output]
+        noise = noise_of(here, output) / here[output]
         gained = _height(here, output) - before
         if number and (gained <= max(parameters["left"], 1.5 * noise) or len(problem.variables) == 1):
             idle = f"; by {' and '.join(flat)} it changes by no more than its noise" if flat else ""

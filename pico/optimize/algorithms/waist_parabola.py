@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from pico.optimize.problem import Declaration, Problem, Short
+from pico.optimize.problem import Declaration, Problem, Short, noise_of
 from pico.optimize.stepwise import Result, Steps, Stepwise
 
 DECLARATION = Declaration(
@@ -65,7 +65,7 @@ def _next(problem: Problem, seen: list[Result]) -> float:
     z = np.array([r[variable.name] for r in seen])
     most = max(abs(r[output]) for r in seen) or 1.0
     w = np.array([r[output] / most for r in seen])
-    sigma = np.array([(r.get(f"{output}_sigma", 0.0) / most) or 0.003 * abs(r[output] / most) for r in seen])
+    sigma = np.array([(noise_of(r, output) / most) or 0.003 * abs(r[output] / most) for r in seen])
     weight = 1 / (2 * np.maximum(np.abs(w), _FAINT) * np.clip(sigma, _FAINT, 1 / _FAINT))
     middle, scale = variable.start, variable.span
     with warnings.catch_warnings(action="ignore", category=np.exceptions.RankWarning):  # then it is along the line

@@ -35,4 +35,4 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         unit = table.setup.measurables_of(component)[measurable].unit
         why = f"{found.value:g} {unit} is all that it can tell".replace("  ", " ")
         return Reading(None, saturated=why, unknown=f"saturated: {why}")
-    return Reading(found.value, sigma=found.sigma, saturated="")
+    return Reading(found.value, sigma=found.sigma, noise=found.noise, saturated="")
