@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import Literal, get_args
 
 from pico.bench.aligned import stands as goals_stand
-from pico.bench.alignment.own_values import found_by_light, never_set, with_own_values
+from pico.bench.alignment.own_values import found_by_light, never_set, not_held, with_own_values
 from pico.bench.by_light import unaligned
 from pico.bench.cut_short import cut_short, told_with
 from pico.bench.in_use import in_use
@@ -72,7 +72,7 @@ class Commits:
         with told_with(self.opened, seen):
             _refuse_in_hand(seen, named)
         kept = _kept(self.folder, seen, named)
-        captured = self._captured(seen, named, write=write)
+        captured = self._captured(seen, named, self._light(seen), write=write)
         return replace(captured, by_light=kept or None)
 
     def wanted(self, plan: Plan, *only: str, write: bool = True) -> Captured:
@@ -91,9 +91,11 @@ class Commits:
     def _used(self) -> bool:
         return self.opened.wait(self.opened.edge.describe()).kept
 
-    def _captured(self, seen: Observation, named: Named | None, *, write: bool = True) -> Captured:
-        """Write what the bench shows, with the values that goals found; say which of them were written."""
-        setup, light = self.folder.setup, self._light(seen)
+    def _captured(
+        self, seen: Observation, named: Named | None, light: Mapping[str, GoalMet], *, write: bool = True
+    ) -> Captured:
+        """Write what the bench shows, with the values that goals found (`light`); say which of them were written."""
+        setup = self.folder.setup
         live, values = live_state(setup, seen, sure=True), {a: one.values[a] for a, one in light.items()}
         captured = self.folder.capture(live, named, values, write=write)
         written = {f"{c.component}.{c.tunable}" for c in captured.changes} & light.keys()
@@ -102,9 +104,7 @@ class Commits:
         return replace(captured, aligned=aligned or None)
 
     def _light(self, seen: Observation) -> Mapping[str, GoalMet]:
-        """Return the tunables whose live values a met goal found; none of a bench without goals."""
-        if not self.folder.setup.lab.goals:
-            return {}
+        """Return the tunables whose live values a met goal found, of the lab or ready-made."""
         with remembered(_place(self.folder)) as memory:
             return found_by_light(self.folder.setup, memory, seen)
 
@@ -149,13 +149,13 @@ class Commits:
         with told_with(self.opened, seen), folder.writing("pico commit"):
             ending = require_resolved(repository.root, repository.own)
             named = read_addresses(folder.setup, only) if only and not ending else None
-            captured = Captured()
+            captured, light = Captured(), self._light(seen)
             if moved and not ending and mode != "planned":
                 raise moved
             if not ending:
                 _refuse(folder, self._with_own(seen, folder.state), mode, named, used=self._used())
             if not ending and mode != "planned":
-                captured = self._captured(seen, named)
+                captured = self._captured(seen, named, light)
             content = contents(folder, named)
             seen = self._with_own(seen, content.state)
             missed = _unaligned(folder, seen, content.state)
@@ -175,6 +175,7 @@ class Commits:
             )  # fmt: skip
         made = replace(made, aligned=captured.aligned)
         told = (*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder))
+        told = (*told, *not_held(folder.setup, content.state, seen, light))
         return replace(made, diagnostics=(*told, *pending_elsewhere(self.opened.place)))
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:

@@ -31,17 +31,23 @@ def differences(
     A component that `live` lacks (not seen) and one that the inventory lacks stay as they are; tunables that `wanted`
     does not name stay unnamed, except of a component that it does not name at all. `named`: only these tunables. Light
     that is asked for stays asked for, unless it is named. `found`: values that light found, by address, which are
-    written down to the resolution.
+    written down to the resolution, also those that `wanted` does not name.
     """
     changes: dict[str, dict[str, Change]] = {}
     for name in sorted(live.components.keys() & setup.lab.inventory.keys()):
         seen = live.components[name]
         entries = _place(setup, name, wanted, live)
+        light = {a.partition(".")[2] for a in found if a.partition(".")[0] == name} & seen.values.keys()
         if name in wanted.components:
             values = _values(setup, name, wanted.components[name], seen, found)
             entries |= {k: v for k, v in values.items() if named is not None or not setup.requests(name, k)}
         elif entries:
             entries |= {k: rounded(setup, name, k, v) for k, v in sorted(seen.values.items()) if _known(setup, name, k)}
+        elif light:
+            home = setup.lab.inventory[name].home
+            entries = {k: rounded(setup, name, k, seen.values[k]) for k in sorted(light)} | (
+                {"slot": home} if home else {}
+            )
         if named is not None:
             entries = {k: v for k, v in entries.items() if holds(named, name, "pose" if k == "slot" else k)}
         if entries:
@@ -155,6 +161,9 @@ def _values(
         anew = off == "tolerated" and address in found and value_deviation(kind, found[address], goal) != "none"
         if off == "off" or (anew and written != goal):
             changes[tunable] = written
+    for tunable in sorted(kinds.keys() & seen.values.keys() - wanted.given.keys()):
+        if f"{name}.{tunable}" in found:
+            changes[tunable] = rounded(setup, name, tunable, seen.values[tunable])
     return changes
 
 

@@ -44,6 +44,15 @@ def measured_when_met(memory: Memory | None, name: str, goal: Mapping[str, Any])
 def met_before(memory: Memory, goals: Mapping[str, Mapping[str, Any]]) -> Iterator[GoalMet]:
     """Yield when goals (as JSON, by name) were met on a bench and were the same, the last time first, with where its
     parts stood then. Runs after which nobody looked are left out. Raises PicoError where the journal can't be read."""
+    for one, what in met_at_all(memory):
+        if one.goal in goals and all(what.get(key) == goals[one.goal].get(key) for key in _MEASURED):
+            yield one
+
+
+def met_at_all(memory: Memory) -> Iterator[tuple[GoalMet, Mapping[str, Any]]]:
+    """Yield each time that a goal was met on a bench, of the lab or ready-made, the last time first, with what was
+    sought (a goal as JSON). Runs after which nobody looked are left out. Raises PicoError if the journal can't be
+    read."""
     for run in reversed(memory.runs()[-MOST:]):
         own = memory.records(run=run.run)
         begun = {r.key: r.data["arguments"] for r in own if r.kind == "intent"}
@@ -51,9 +60,8 @@ def met_before(memory: Memory, goals: Mapping[str, Mapping[str, Any]]) -> Iterat
         after = memory.about(run.run)[1] if ends else None
         for end in reversed(ends) if after else ():
             name, what = str(begun.get(end.key, {}).get("goal")), begun.get(end.key, {}).get("what", {})
-            if name in goals and all(what.get(key) == goals[name].get(key) for key in _MEASURED):
-                poses = _poses(after or {}, [r for r in own if r.kind == "intent" and r.seq > end.seq])
-                yield GoalMet(name, end.at, end.data["data"].get("last") or {}, poses)
+            poses = _poses(after or {}, [r for r in own if r.kind == "intent" and r.seq > end.seq])
+            yield GoalMet(name, end.at, end.data["data"].get("last") or {}, poses), what
 
 
 def _poses(after: Mapping[str, Any], since: Sequence[JournalRecord]) -> dict[str, Pose]:

@@ -160,3 +160,52 @@ def test_goals_of_lenses_in_storage_are_no_error_of_a_shipped_state(shel: Path, 
     subprocess.run(["git", "checkout", "-q", branch], cwd=shel, check=True)
     answer = pico("validate")
     assert answer.code == 0, answer.err
+
+
+READY = ("optimize", "centre", "ly_150", "cam", "--yes")
+
+
+@pytest.fixture
+def placed(shel: Path, brought: Brought) -> Path:
+    brought(without_goals)
+    return shel
+
+
+def without_goals(folder: Path) -> None:
+    """The case study in a world that errs, of whose stage no goal of the lab and no manifest says anything."""
+    subprocess.run(["git", "checkout", "-q", "e1"], cwd=folder, check=True)
+    edit(folder / "lab.yaml", "  seed: 1\n", "  seed: 1\n  errors: {seat: 1}\n")
+    with_goals(folder / "lab.yaml", "")
+    table = folder / "state" / "table.yaml"
+    named = yaml.safe_load(table.read_text())["components"]["ly_150"]
+    for tunable in ("stage_y", "stage_z"):
+        edit(table, f"    {tunable}: {named[tunable]}\n", "")
+    succeed("bench", "update", "--yes")
+    succeed("apply", "--yes")
+    succeed("commit", "-m", "without stages")
+
+
+@pytest.mark.parametrize("how", ["capture", "commit"])
+def test_what_a_ready_made_goal_found_is_written_though_the_manifest_does_not_name_it(
+    placed: Path, pico: Pico, how: str
+) -> None:
+    assert pico(*READY).code == 0
+    found = stage(pico)
+    answer = pico("commit", "-m", "aligned") if how == "commit" else pico("capture")
+    assert answer.code == 0, answer.err
+    assert "Wrote the aligned values of centre ly_150 cam: ly_150.stage_y" in " ".join(answer.out.split())
+    written = yaml.safe_load((placed / "state" / "table.yaml").read_text())["components"]["ly_150"]
+    assert written["stage_y"] == pytest.approx(found, abs=0.005) and "stage_z" in written
+    assert "Nothing to capture" in pico("capture").out
+
+
+def test_what_a_commit_does_not_carry_of_an_alignment_it_names(placed: Path, pico: Pico) -> None:
+    assert pico(*READY).code == 0
+    edit(placed / "state" / "table.yaml", "    angle: 22.75", "    angle: 22")
+    answer = pico("commit", "-m", "planned", "--planned")
+    said = " ".join(answer.err.split())
+    assert answer.code == 0, answer.err
+    assert "centre ly_150 cam found ly_150.stage_y and ly_150.stage_z, and the commit does not hold" in said
+    assert "`pico capture ly_150.stage_y ly_150.stage_z`" in said
+    assert pico("set", "ly_150.stage_y=1", "--yes").code == 0
+    assert "found" not in pico("commit", "-m", "set", "--capture").err, "it was set otherwise since: nothing is lost"

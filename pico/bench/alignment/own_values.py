@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
-from pico.diagnostics import PicoError
+from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.manifest.changes import differences
 from pico.model.address import holds, read_addresses
-from pico.model.observation import Observation
+from pico.model.observation import Observation, live_state
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
-from pico.planning.aligned_values import GoalMet, equal, goals_by_tunable, left_to_light, off_by_goal
+from pico.planning.aligned_values import GoalMet, equal, left_to_light, off_by_goal
 
 if TYPE_CHECKING:
     from pico.edge.contract import Edge
@@ -90,22 +91,43 @@ def met_here(setup: Setup, memory: Memory | None, goals: Collection[str]) -> Ite
 
 
 def found_by_light(setup: Setup, memory: Memory | None, seen: Observation) -> dict[str, GoalMet]:
-    """Return the tunables with `restore: align` whose live values are those with which their goal was met, by address,
-    each with the last time. Raises PicoError where the journal can't be read."""
-    by_tunable, found = goals_by_tunable(setup), dict[str, GoalMet]()
-    goals = {goal for names in by_tunable.values() for goal in names}
-    latest: dict[str, GoalMet] = {}
-    for one in met_here(setup, memory, goals):
-        latest.setdefault(one.goal, one)
-    for address, names in by_tunable.items():
-        for one in (latest[name] for name in names if name in latest):
-            tuned = {a for a, of in by_tunable.items() if one.goal in of and a in one.values}
-            live = {a: seen.known_values.get(c, {}).get(t) for a in tuned for c, _, t in [a.partition(".")]}
-            known = {a: value for a, value in live.items() if value is not None}
-            if address in tuned and known.keys() == tuned and one.with_values(setup, known):
-                found[address] = one
-                break
+    """Return the tunables whose live values are those with which a goal was met, of the lab or ready-made, by address,
+    each with the last search of it that met its goal. Raises PicoError if the journal can't be read."""
+    from pico.runs.when_met import met_at_all
+
+    found, sought = dict[str, GoalMet](), set[str]()
+    for one, what in met_at_all(memory) if memory else ():
+        tuned = {a for a in what.get("tunables") or () if a in one.values and _known(setup, a)}
+        live = {a: seen.known_values.get(c, {}).get(t) for a in tuned for c, _, t in [a.partition(".")]}
+        known = {a: value for a, value in live.items() if value is not None}
+        if known.keys() == tuned and one.with_values(setup, known):
+            found |= dict.fromkeys(tuned - sought, one)
+        sought |= tuned
     return found
+
+
+def not_held(setup: Setup, state: LabState, seen: Observation, found: Mapping[str, GoalMet]) -> tuple[Diagnostic, ...]:
+    """Return a warning for each goal some of whose values, `found` by address, a committed state does not hold."""
+    live, values = live_state(setup, seen, sure=True), {a: one.values[a] for a, one in found.items()}
+    changes = differences(setup, state, live, None, values)
+    missed: dict[str, list[str]] = {}
+    for address in sorted(found):
+        component, _, tunable = address.partition(".")
+        if tunable in changes.get(component, {}):
+            missed.setdefault(found[address].goal, []).append(address)
+    return tuple(_not_held(goal, addresses) for goal, addresses in missed.items())
+
+
+def _not_held(goal: str, addresses: Sequence[str]) -> Diagnostic:
+    them = "it" if len(addresses) == 1 else "them"
+    text = f"{goal} found {' and '.join(addresses)}, and the commit does not hold {them}"
+    hint = f"`pico capture {' '.join(addresses)}` writes {them} into the manifest"
+    return warning("aligned", text, hint=hint)
+
+
+def _known(setup: Setup, address: str) -> bool:
+    component, _, tunable = address.partition(".")
+    return component in setup.lab.inventory and tunable in setup.type_of(component).tunables
 
 
 def never_set(setup: Setup, memory: Memory | None, seen: Observation, wanted: LabState) -> set[str]:
