@@ -12,6 +12,7 @@ from pico.model.state import is_reference, reference_from_json
 from .by_light import excepted
 from .diff import lines
 from .style import ago, count, listed, paint, wrap
+from .unread import in_known, unread
 
 
 def text(found: Drifted, bench: str) -> str:
@@ -26,9 +27,9 @@ def text(found: Drifted, bench: str) -> str:
         title = (
             f"No part has left {head}, and light is lost:"
             if light
-            else f"No drift: the bench `{bench}` is as {head} says{excepted(kept)}."
+            else f"No drift: the bench `{bench}` is as {head} says{in_known(found.unread)}{excepted(kept)}."
         )
-        return "\n".join(x for x in (title, *light, within, ignored) if x)
+        return "\n".join(x for x in (title, *light, within, ignored, unread(found.unread)) if x)
     title = (
         f"{count(len(beyond), 'tunable')} of the bench `{bench}` {'has' if len(beyond) == 1 else 'have'} left {head}:"
     )
@@ -37,6 +38,7 @@ def text(found: Drifted, bench: str) -> str:
         *([f"No drift: {stays}."] if kept else []),
         *([within] if within else []),
         *([ignored] if ignored else []),
+        *([unread(found.unread)] if found.unread else []),
         _hint(found),
     ]
     entries = [line for one in _ordered(beyond) for line in _entry(one)]
@@ -111,7 +113,7 @@ def about(one: Drift) -> str:
 def data(found: Drifted, bench: str) -> dict[str, Any]:
     """Return schema `pico.drift/v1`: `bench`, `head`, `changes` (from committed, `before`, to live, `after`;
     `tolerance`, `age`, `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`, `light`: goals whose light is lost,
-    or may be, with what `moved`."""
+    or may be, with what `moved`; `unread`: values that no device of the bench reads."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
     own = {
         "bench": bench,
@@ -120,7 +122,7 @@ def data(found: Drifted, bench: str) -> dict[str, Any]:
         "ignored": list(found.ignored),
         "held": found.held,
     }
-    own |= {"cut_short": as_json(found.cut_short), "light": as_json(found.light or ())}
+    own |= {"cut_short": as_json(found.cut_short), "light": as_json(found.light or ()), "unread": list(found.unread)}
     return {"schema": "pico.drift/v1", **own, "changes": changes}
 
 

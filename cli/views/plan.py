@@ -20,6 +20,7 @@ from pico.model.state import goals_of
 from .by_light import excepted, unfound
 from .diff import brief
 from .style import ago, columns, count, listed, paint, place, seconds, wide, width, wrap
+from .unread import in_known, unread
 
 SHOWN_TOLERATED = 5
 REAL = (HARDWARE, EMULATED)
@@ -294,7 +295,7 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
     if plan.target.cause == "single":
         return [_as_asked(beside)]
-    return [_as_wanted(plan)]
+    return [line for line in (_as_wanted(plan), unread(plan.unread)) if line]
 
 
 def _as_wanted(plan: Plan) -> str:
@@ -304,7 +305,7 @@ def _as_wanted(plan: Plan) -> str:
         return f"Nothing to do by numbers. {unfound(goal_name(plan), missed or sorted(said))}"
     if plan.target.cause == "recover":
         return "Nothing to do: no gripper holds anything, and no arm stands where it was stopped."
-    return f"Nothing to do: the bench equals {goal_name(plan)}{excepted(plan.changes)}."
+    return f"Nothing to do: the bench equals {goal_name(plan)}{in_known(plan.unread)}{excepted(plan.changes)}."
 
 
 def _as_asked(beside: Sequence[Change] | None) -> str:

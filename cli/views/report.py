@@ -12,6 +12,7 @@ from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
 from .by_light import excepted, stays, unfound
 from .diff import brief
 from .style import count, listed, paint, seconds, wrap
+from .unread import in_known, unread
 
 _CAPTURE = "The manifest is unchanged; `pico capture` updates it."
 
@@ -79,9 +80,11 @@ def expectations(found: Sequence[Expected]) -> list[str]:
 def _bench(report: RunReport, undoing: bool) -> list[str]:
     if report.reached and (report.whole or report.scope or report.outcome == "done"):
         if report.whole:
+            unknown = report.unread or ()
             return [
                 unfound(report.goal, report.by_light or ())
-                or f"The bench equals {report.goal}{excepted(report.excepted or ())}."
+                or f"The bench equals {report.goal}{in_known(unknown)}{excepted(report.excepted or ())}.",
+                *([unread(unknown)] if unknown else []),
             ]
         if report.scope:
             return [_partial(report)]

@@ -10,6 +10,7 @@ from pico.model.record import as_json
 from pico.model.state import is_reference
 
 from .style import columns, count, listed, paint, place, valued, wrap
+from .unread import in_known, unread
 
 LONG = 40
 
@@ -57,7 +58,7 @@ def _cells(row: StatusRow) -> list[str]:
     if row.note:
         live = paint("red", row.note)
     elif row.live is None:
-        live = "unknown"
+        live = "unknown" + paint("red", " !") * row.off
     elif row.off and is_reference(row.desired):
         live = paint("yellow" if row.edited else "red", f"{valued(row.live, row.unit)} !")
     elif row.off:
@@ -94,16 +95,19 @@ def _summary(status: Status) -> list[str]:
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]
+    unknown = [r.address for r in status.rows if r.unread]
+    told = [unread(unknown)] if unknown else []
     said = " · ".join(words for number, words in parts if number)
     if not said:
         if all(row.committed is None for row in status.rows):
-            return ['The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
+            return [*told, 'The bench is as the manifest says; nothing is committed yet: `pico commit -m "why"`.']
         but = ["light that is asked for"] if any(r.requested for r in status.rows) else []
         kept = sum(bool(r.kept) for r in status.rows)
         but += [f"{count(kept, 'value')} that alignment has the last word on"] if kept else []
         end = ["`pico capture` writes the values kept into the manifest; `pico apply --exact` drives to its numbers."]
         return [
-            f"Committed, desired and live are equal{f', but for {listed(but)}' if but else ''}.",
+            f"Committed, desired and live are equal{in_known(unknown)}{f', but for {listed(but)}' if but else ''}.",
+            *told,
             *end[: bool(kept)],
         ]
     advice = []
@@ -113,7 +117,7 @@ def _summary(status: Status) -> list[str]:
         advice.append("`pico plan` shows what would move; `pico capture` takes the live values into the manifest.")
     elif edits and not lost:
         advice.append('The bench is as the manifest says; `pico commit -m "why"` keeps it.')
-    return [said, *advice]
+    return [said, *told, *advice]
 
 
 def data(status: Status, **_: Any) -> dict[str, Any]:

@@ -15,6 +15,7 @@ from .measured import value
 from .report import expectations
 from .runs import shown
 from .style import columns, count, on_bench, paint, wrap
+from .unread import in_known, unread
 
 if TYPE_CHECKING:
     from pico.diagnosis.grouping import Suspect
@@ -31,7 +32,8 @@ def text(found: Verified, *, suspects: Sequence[Suspect] = ()) -> str:
         said = [f"{count(len(found.off), 'tunable')} {verb} not as {found.goal} says:", "", *lines(found.off), ""]
     else:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
-        said = [f"The bench equals {found.goal}{near}{excepted(found.changes)}."]
+        said = [f"The bench equals {found.goal}{in_known(found.unread or ())}{near}{excepted(found.changes)}."]
+    said += [unread(found.unread)] if found.unread else []
     said += goals(found.goals or ())
     if found.light:
         commit = found.standing.commit[:7] if found.standing else ""

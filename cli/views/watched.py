@@ -9,6 +9,7 @@ from pico.bench.watching import Told
 from .diff import said
 from .drift import about, entry
 from .style import paint
+from .unread import in_known
 
 
 def text(told: Told) -> str:
@@ -21,7 +22,7 @@ def text(told: Told) -> str:
 
 def right(told: Told) -> str:
     """Return what is said where the first look finds nothing."""
-    return f"No drift: the bench is as {told.found.head} says. Watching; Ctrl-C ends it."
+    return f"No drift: the bench is as {told.found.head} says{in_known(told.found.unread)}. Watching; Ctrl-C ends it."
 
 
 def data(told: Told) -> dict[str, Any]:

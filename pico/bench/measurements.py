@@ -11,6 +11,7 @@ from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, warning
 from pico.kernels.pipeline import source_of
 from pico.model.comparing.drift import drift_of
+from pico.model.diff import unread_values
 from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
 
@@ -190,6 +191,7 @@ class Measurements:
             left=left,
             goals=(*(report.read or () if report else ()), *told) if report or told else None,
             light=Lights(self.opened).compared(revision, report.measurements) if report else None,
+            unread=unread_values(seen, wanted) or None,
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

@@ -18,6 +18,7 @@ from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.diagnostics import ExitCode, PicoError
 from pico.model.comparing.drift import drift_of
+from pico.model.diff import unread_values
 from pico.model.lab import HealLimit
 from pico.model.observation import Observation
 from pico.model.record import record
@@ -83,6 +84,7 @@ class Watch:
             within=tuple(d for d in found if d.change.tolerated),
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
             cut_short=told_first(self.opened, seen), light=tuple(self._light_lost(seen, head, beyond)) or None,
+            unread=unread_values(seen, head),
         )  # fmt: skip
 
     def _with_own(self, seen: Observation, state: LabState) -> Observation:

@@ -9,7 +9,7 @@ from pico.backends.device import Capabilities
 from pico.diagnostics import Diagnostic, warning
 from pico.execution.graph import set_back
 from pico.model.comparing.drift import drift_of, uncertain
-from pico.model.diff import Change, diff_observed, show_value, within_trim
+from pico.model.diff import Change, diff_observed, show_value, unread_values, within_trim
 from pico.model.measurement import Measurement, measurement_from_json
 from pico.model.observation import Aligned, Observation, ObservedComponent
 from pico.model.operation import Operation, touched_by
@@ -50,6 +50,7 @@ def run_report(
         left=_left(setup, plan, seen) if plan.target.scope else (),
         remaining=remaining,
         excepted=excepted or None,
+        unread=(unread_values(seen, plan.target_state) or None) if whole else None,
         absent=_absent(setup, plan, seen) if whole else (),
         expectations=_expectations(setup, plan, seen, able) if whole else (),
         measurements=seen.measurements,

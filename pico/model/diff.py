@@ -107,6 +107,15 @@ def deviation(setup: Setup, name: str, pose: Pose, slot: str | None, goal: Pose)
     return "tolerated" if within else "off"
 
 
+def unread_values(seen: Observation, wanted: LabState) -> tuple[str, ...]:
+    """Return the tunables, by address, that a state gives a value and that no device of the bench reads: they are
+    compared with nothing."""
+    return tuple(sorted(
+        f"{name}.{tunable}" for name, part in wanted.components.items() if name in seen.components
+        for tunable in part.values.keys() - seen.components[name].values.keys()
+    ))  # fmt: skip
+
+
 def _observed_move(setup: Setup, name: str, pose: Pose, wanted: LabState, exact: bool) -> Change | None:
     slot, goal = place_of(setup, wanted, name)
     off = deviation(setup, name, pose, slot, goal)

@@ -170,6 +170,15 @@ class Plan:
         return _state_of(self.target.state, self.lab.name)
 
     @property
+    def unread(self) -> tuple[str, ...]:
+        """The tunables, by address, that the target gives a value and that no device of the bench read: they are
+        compared with nothing."""
+        live, told = self.base_state.components, {f"{c.component}.{c.tunable}" for c in self.changes}
+        wanted = {f"{n}.{t}" for n, part in self.target_state.components.items() if n in live
+                  for t in part.values.keys() - live[n].values.keys()}  # fmt: skip
+        return tuple(sorted(wanted - told))
+
+    @property
     def errored(self) -> bool:
         return any(d.severity == "error" for d in self.diagnostics)
 

@@ -67,7 +67,8 @@ class LightLost:
 @record
 class Drifted:
     """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address; goals
-    whose light is lost with that, or without (`light`), as far as the journal knows.
+    whose light is lost with that, or without (`light`), as far as the journal knows. `unread`: values of HEAD, by
+    address, that no device of the bench reads.
 
     `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `told_first`.
     """
@@ -80,6 +81,7 @@ class Drifted:
     held: str = ""
     cut_short: tuple[Diagnostic, ...] = ()
     light: tuple[LightLost, ...] | None = None
+    unread: tuple[str, ...] = ()
 
 
 def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:

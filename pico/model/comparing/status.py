@@ -8,7 +8,16 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.catalog import Tunable
-from pico.model.diff import Change, deviation, diff_observed, diff_states, place_json, show_value, slot_left
+from pico.model.diff import (
+    Change,
+    deviation,
+    diff_observed,
+    diff_states,
+    place_json,
+    show_value,
+    slot_left,
+    unread_values,
+)
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
@@ -27,6 +36,7 @@ class StatusRow:
     deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
     the values. `requested`: it differs, and is light that is asked for, which no state is. `note`: missing, held,
     toppled or uncertain. `kept`: the goal that has the last word on it, if it differs and stays at its live value.
+    `unread`: no device of the bench reads it, so that it is compared with nothing.
     """
 
     component: str
@@ -44,6 +54,7 @@ class StatusRow:
     requested: bool = False
     note: str = ""
     kept: str = ""
+    unread: bool = False
 
     @property
     def address(self) -> str:
@@ -53,7 +64,7 @@ class StatusRow:
     @property
     def equal(self) -> bool:
         """Whether there is nothing to tell about it."""
-        return not (self.edited or self.off or self.note or self.requested or self.kept)
+        return not (self.edited or self.off or self.note or self.requested or self.kept or self.unread)
 
 
 @record
@@ -82,9 +93,10 @@ def compare(
     off = _by_address([*diff_observed(setup, seen, desired), *_unfound(desired, unaligned)])
     moved = _by_address(diff_observed(setup, seen, committed)) if committed else {}
     rows: list[StatusRow] = []
+    unread = {*unread_values(seen, desired)}
     for name in sorted(setup.lab.inventory if only is None else setup.lab.inventory.keys() & set(only)):
         rows.append(_pose_row(setup, name, committed, desired, seen, off, moved))
-        rows.extend(_value_rows(setup, name, committed, desired, seen, off, moved))
+        rows.extend(_value_rows(setup, name, committed, desired, seen, off, moved, unread))
     unknown = {name: thing.pose for name, thing in seen.unknown.items()}
     return Status(
         lab=setup.lab.name,
@@ -139,7 +151,7 @@ def _pose_row(
 
 def _value_rows(
     setup: Setup, name: str, committed: LabState | None, desired: LabState, seen: Observation, off: _Changes,
-    moved: _Changes,
+    moved: _Changes, unread: Collection[str],
 ) -> list[StatusRow]:  # fmt: skip
     before = _values(committed, name)
     after = _values(desired, name)
@@ -156,7 +168,10 @@ def _value_rows(
             edited=committed is not None and before.get(tunable) != after.get(tunable),
             near=_near(kinds.get(tunable), off.get((name, tunable)), live.get(tunable), after.get(tunable)),
             unit=kinds[tunable].unit if tunable in kinds else "",
-            **_verdict((name, tunable), off, moved, by_light=is_reference(after.get(tunable))),
+            unread=f"{name}.{tunable}" in unread,
+            **_verdict(
+                (name, tunable), off, moved, other=is_reference(after.get(tunable)) or f"{name}.{tunable}" in unread
+            ),
         )
         for tunable in sorted(before.keys() | after.keys())
     ]
@@ -177,13 +192,13 @@ def _values(state: LabState | None, name: str) -> Mapping[str, Any]:
     return state.components[name].given if state and name in state.components else {}
 
 
-def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes, *, by_light: bool = False) -> dict[str, Any]:
+def _verdict(key: tuple[str, str], off: _Changes, moved: _Changes, *, other: bool = False) -> dict[str, Any]:
     change, drift = off.get(key), moved.get(key)
     is_off = change is not None and change.counts
     return {
         "off": is_off,
         "drifted": is_off and drift is not None and not drift.tolerated,
-        "exact": change is None and not by_light,
+        "exact": change is None and not other,
         "requested": change is not None and bool(change.requested),
         "kept": change.aligned.goal if change is not None and change.aligned is not None else "",
     }

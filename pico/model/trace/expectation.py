@@ -114,7 +114,8 @@ class Verified:
     """A bench against a state, `goal`: what differs (`changes`, those within tolerance marked so; `after` is live),
     and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
     without one. `left`: the bench does not stand as that commit says, whatever the manifest does. `goals` as they were
-    measured, `light`: what the commit recorded of it against what was measured; None where neither was."""
+    measured, `light`: what the commit recorded of it against what was measured; None where neither was. `unread`:
+    values of the state, by address, that no device of the bench reads."""
 
     schema: str = "pico.verified/v1"
     goal: str
@@ -125,6 +126,7 @@ class Verified:
     left: bool = False
     goals: tuple[GoalRead, ...] | None = None
     light: tuple[Compared, ...] | None = None
+    unread: tuple[str, ...] | None = None
 
     @property
     def dimmed(self) -> bool:

@@ -45,7 +45,8 @@ class RunReport:
     the bench after a whole run. `measurements`: what was measured, by address; `goals`: those that were sought,
     `aligning`: what all that was there to bring light back took [s]; `read`: those that were measured where they stand.
     `evidence`: what the run counts as.
-    `by_light`: set-points that light has yet to find. `excepted`: what differs after a whole run and does not count:
+    `by_light`: set-points that light has yet to find. `unread`: values of the goal, by address, that no device of the
+    bench reads. `excepted`: what differs after a whole run and does not count:
     light that is asked for, and values that stay where alignment has the last word. `off`: how far parts that were
     placed stand from where the plan has them, at most: `mm` and `deg`, of which `part` stands farthest off.
     """
@@ -76,6 +77,7 @@ class RunReport:
     read: tuple[GoalRead, ...] | None = None
     off: Mapping[str, str | float] | None = None
     excepted: tuple[Change, ...] | None = None
+    unread: tuple[str, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     def __repr__(self) -> str:
