@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import runpy
 import shutil
@@ -248,7 +247,7 @@ def flipped(path: Path, share: float) -> None:
 DAMAGES: dict[str, Callable[[Path], object]] = {
     "flip": lambda path: flipped(path, 0.6),
     "cut": lambda path: path.write_bytes(path.read_bytes()[: path.stat().st_size // 2]),
-    "empty": lambda path: (path.write_bytes(b""), os.utime(path, (1, 1))),
+    "empty": lambda path: path.write_bytes(b""),
     "gone": lambda path: path.unlink(),
 }
 FILES = ("world.json", "lab.json", "faults.json", "journal.sqlite", "lock")

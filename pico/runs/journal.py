@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import json
 import sqlite3
-import time
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import replace
@@ -20,6 +19,7 @@ from pathlib import Path
 from typing import Any, Literal, cast
 
 from pico.base.clock import now_ms
+from pico.base.database import EMPTY, is_emptied, make_database
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import refusing, unwritable
 from pico.model.observation import ObservedComponent, observed_from_json
@@ -46,8 +46,6 @@ from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
-MAKING = 5.0
-"""Seconds within which a process that makes a journal has written its tables."""
 RECENT = 2000
 """So many records are checked before anything is written, and with them anything moves."""
 SMALL = 1000
@@ -127,7 +125,7 @@ class Journal:
         marked = marked_run(path)
         with self._guarded():
             if is_emptied(path):
-                raise sqlite3.DatabaseError("the file is empty")
+                raise sqlite3.DatabaseError(EMPTY)
             if lost := lost_transactions(path):  # before it is opened: SQLite then drops them
                 why = f"its write-ahead log is damaged, and {lost} transactions lie behind that"
                 raise PicoError(lost_end(path, why))
@@ -136,6 +134,8 @@ class Journal:
             try:
                 if not looking:
                     path.parent.mkdir(parents=True, exist_ok=True)
+                if not path.exists():
+                    make_database(path, _upgrade(0))
                 self._open(str(path))
             except sqlite3.OperationalError:
                 if not looking or _is_open(path):
@@ -169,12 +169,14 @@ class Journal:
         self._db.execute("PRAGMA synchronous=FULL")
         self._db.execute("PRAGMA fullfsync=ON")  # macOS; elsewhere it does nothing
         (version,) = self._db.execute("PRAGMA user_version").fetchone()
+        if version == 0:
+            raise sqlite3.DatabaseError("the file holds no tables")
         if version > VERSION:
             text = f"{self.path} is of a newer PICO (version {version})"
             raise PicoError(error("journal", text, hint=upgrade_hint()))
         if version < VERSION:
             try:
-                self._db.executescript(f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;")
+                self._db.executescript(_upgrade(version))
             except sqlite3.OperationalError:
                 if not self._looking or version < 3:
                     raise
@@ -485,13 +487,9 @@ class Journal:
             raise PicoError(_trouble(self.path, exc)) from exc
 
 
-def is_emptied(path: Path) -> bool:
-    """Whether a journal is an empty file, and not one that another process makes at this moment."""
-    try:
-        found = path.stat()
-    except OSError:
-        return False
-    return found.st_size == 0 and time.time() - found.st_mtime > MAKING
+def _upgrade(version: int) -> str:
+    """Return what makes the tables of a version those of today, all or none; 0: a file that holds nothing yet."""
+    return f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;"
 
 
 def _is_open(path: Path) -> bool:

@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pico.base.database import EMPTY, is_emptied
 from pico.disk import writing
 from pico.model.operation import operation_from_json
 from pico.model.record import digest
@@ -26,7 +27,7 @@ from pico.runs.damage import (
     marked_run,
     sums_of_run,
 )
-from pico.runs.journal import Journal, as_text, is_emptied
+from pico.runs.journal import Journal, as_text
 from pico.runs.journal_tables import HEAD, ROW
 from pico.runs.write_ahead import lost_transactions
 
@@ -96,7 +97,7 @@ def examine(path: Path) -> Examined:
     PicoError if they can't be copied."""
     marked = marked_run(path)
     if not path.exists() or is_emptied(path):
-        return Examined(broken="the file is empty" if path.exists() else "the file is gone", missing=marked)
+        return Examined(broken=EMPTY if path.exists() else "the file is gone", missing=marked)
     lost = lost_transactions(path)
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / path.name

@@ -142,6 +142,14 @@ def test_a_damaged_file_of_the_gate_is_said_with_what_to_do(tmp_path: Path) -> N
     assert "gate.sqlite.damaged" in told.value.diagnostics[0].hint
 
 
+def test_a_gate_that_was_emptied_is_damaged_and_forgets_no_fence_unsaid(tmp_path: Path) -> None:
+    path = tmp_path / "gate.sqlite"
+    KeptGate(path).close()
+    path.write_bytes(b"")
+    with pytest.raises(PicoError, match="the file is empty"):
+        KeptGate(path)
+
+
 def test_a_damaged_record_of_the_gate_is_named_and_lets_nothing_through(tmp_path: Path) -> None:
     path = tmp_path / "gate.sqlite"
     gate = KeptGate(path)

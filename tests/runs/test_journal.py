@@ -3,7 +3,12 @@
 from __future__ import annotations
 
 import sqlite3
+import subprocess
+import sys
+import threading
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
@@ -204,3 +209,50 @@ def test_a_fence_only_rises(journal: Journal) -> None:
     journal.fence(6)
     with pytest.raises(PicoError, match="the lease 5"):
         journal.intend("r1/op1/1", MOVE, token=5)
+
+
+@pytest.mark.parametrize("looking", [False, True])
+def test_a_journal_that_was_emptied_just_now_is_damaged_and_no_new_one(tmp_path: Path, looking: bool) -> None:
+    path = tmp_path / "journal.sqlite"
+    with closing(Journal(path)) as journal:
+        journal.begin_run("r1", "", "somebody")
+    for left in path.parent.glob("journal.sqlite*"):
+        left.write_bytes(b"")
+    with pytest.raises(PicoError, match="the file is empty") as caught:
+        Journal(path, looking=looking)
+    assert "`pico doctor --journal`" in caught.value.diagnostics[0].hint
+    assert path.stat().st_size == 0, "nothing is written into it"
+
+
+def test_a_journal_that_is_being_made_is_never_seen_empty_and_made_once(tmp_path: Path) -> None:
+    path, sizes, done = tmp_path / "journal.sqlite", list[int](), threading.Event()
+
+    def watch() -> None:
+        while not done.is_set():
+            if path.exists():
+                sizes.append(path.stat().st_size)
+
+    def begin(number: int) -> None:
+        with closing(Journal(path)) as journal:
+            journal.begin_run(f"r{number}", "", "somebody")
+
+    with ThreadPoolExecutor(9) as pool:
+        watching = pool.submit(watch)
+        for made in [pool.submit(begin, number) for number in range(8)]:
+            made.result()
+        done.set()
+        watching.result()
+    assert sizes and min(sizes) > 0
+    with closing(Journal(path)) as journal:
+        assert {run.run for run in journal.runs()} == {f"r{number}" for number in range(8)}
+    assert not list(tmp_path.glob(".*")), "nothing is left beside it"
+
+
+def test_a_process_that_was_killed_while_it_made_a_journal_leaves_none(tmp_path: Path) -> None:
+    path = tmp_path / "journal.sqlite"
+    killed = "import os, pico.base.database as d; d.os.link = lambda *_: os.kill(os.getpid(), 9)"
+    code = f"{killed}\nfrom pathlib import Path\nfrom pico.runs.journal import Journal\nJournal(Path({str(path)!r}))"
+    assert subprocess.run([sys.executable, "-c", code], check=False, capture_output=True).returncode == -9
+    assert not path.exists() and list(tmp_path.glob(".*"))
+    Journal(path).close()
+    assert not list(tmp_path.glob(".*")), "what it left is cleared"

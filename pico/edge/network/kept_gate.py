@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+from pico.base.database import EMPTY, is_emptied, make_database
 from pico.base.state_files import GATE
 from pico.control.gate import Command, Memory, Phase, Record
 from pico.diagnostics import PicoError, error
@@ -34,6 +35,10 @@ class KeptGate:
         self._path = path
         with self._guarded():
             path.parent.mkdir(parents=True, exist_ok=True)
+            if is_emptied(path):
+                raise sqlite3.DatabaseError(EMPTY)
+            if not path.exists():
+                make_database(path, _TABLES)
             self._db = sqlite3.connect(path, isolation_level=None, check_same_thread=False)
             self._db.execute("PRAGMA journal_mode=WAL")
             self._db.execute("PRAGMA synchronous=FULL")
