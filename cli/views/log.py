@@ -103,6 +103,8 @@ def _name(commit: Commit, checked_out: str | None) -> str:
 
 
 def _what(entry: CommitEntry) -> str:
+    if entry.shallow:
+        return entry.unreadable
     if entry.unreadable:
         return f"can't be read: {entry.unreadable}"
     if not entry.changes:

@@ -134,7 +134,9 @@ class Log:
     def _concerns(self, commit: Commit) -> bool:
         """Whether a commit changed what the scope names, against each of its parents."""
         entry = self._read(commit)
-        keep = bool(entry.changes) and all(self._differs(p, commit.id) for p in self._real[commit.id].parents[1:])
+        keep = entry.shallow or (
+            bool(entry.changes) and all(self._differs(p, commit.id) for p in self._real[commit.id].parents[1:])
+        )
         if keep:
             self._entries[commit.id] = entry
         return keep

@@ -15,6 +15,8 @@ from typing import Any, Literal
 from pico.diagnostics import PicoError, error
 from pico.disk import writing
 from pico.history.git import command as git
+from pico.history.git.partial import open_handle
+from pico.history.git.shallow import cut_off
 
 Verdict = Literal["good", "bad", "skip"]
 NOTE = "# pico: "
@@ -162,6 +164,8 @@ def require_order(root: Path, bad: str, good: str, names: tuple[str, str]) -> No
         text = f"{names[0]} comes before {names[1]}: what is bad there was mended later"
         raise PicoError(error("bisect", text, hint=f"the other way around? `pico bisect start {names[1]} {names[0]}`"))
     if not forks:
-        shallow = git.answer(root, ["rev-parse", "--is-shallow-repository"]).strip() == "true"
-        hint = "this clone holds only the last commits: `git fetch --unshallow`" if shallow else "name a good ancestor"
-        raise PicoError(error("bisect", f"{names[0]} and {names[1]} have no history in common", hint=hint))
+        if git.answer(root, ["rev-parse", "--is-shallow-repository"]).strip() == "true":
+            what = f"does not reach back to a commit that {names[0]} and {names[1]} have in common"
+            raise PicoError(cut_off(open_handle(root), what))
+        text = f"{names[0]} and {names[1]} have no history in common"
+        raise PicoError(error("bisect", text, hint="name a good ancestor"))

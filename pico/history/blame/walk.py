@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
-from pathlib import Path, PurePosixPath
+from pathlib import PurePosixPath
 from typing import Any
 
 from pico.diagnostics import PicoError, error
@@ -18,6 +18,7 @@ from pico.history.blame.flat import loads as flat_from
 from pico.history.blame.follow import Blame, Delta, WalkStep, walk
 from pico.history.blame.how import RunBrief, brief_of
 from pico.history.git.cache import VERSION, Cache
+from pico.history.git.shallow import boundary
 from pico.history.git.unread import modules
 from pico.history.repository.repository import Repository
 from pico.manifest.file_names import MAX_BYTES, is_manifest
@@ -39,7 +40,7 @@ class Walker:
         self.repository, self.folder = repository, folder
         self._git: Any = repository.handle
         self.cache = Cache(repository.common / CACHE)
-        self.shallow = _shallow(repository.common)
+        self.shallow = boundary(repository.common)
         here = sorted(str(path) for path in repository.common.glob("modules/*"))
         self._lab = _digest(VERSION, folder, _catalog_stamp(), sorted(self.shallow), here)
         self._unread: list[Unread] = []
@@ -247,13 +248,6 @@ def packaged_units(kind: str) -> Mapping[str, str]:
 def _regular(mode: int) -> bool:
     """Whether this is a file: no link, no submodule, not gone."""
     return mode & 0o170000 == 0o100000
-
-
-def _shallow(common: Path) -> frozenset[str]:
-    try:
-        return frozenset((common / "shallow").read_text(encoding="utf-8").split())
-    except OSError:
-        return frozenset()
 
 
 def _catalog_stamp() -> list[tuple[str, int, int]]:

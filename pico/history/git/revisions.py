@@ -11,6 +11,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.history.git import command as git
+from pico.history.git.shallow import cut_off
 
 TAGS, BRANCHES, REMOTES = "refs/tags/", "refs/heads/", "refs/remotes/"
 _FETCH = 0
@@ -192,8 +193,7 @@ def _unknown(handle: Any, revision: str) -> Diagnostic:
         hint = "write more of it: " + ", ".join(f"`{c[:12]}`" for c in alike[:4])
         return error("revision", f"several commits begin with `{revision}`", hint=hint)
     if handle.is_shallow:
-        hint = "this clone holds only the last commits; `git fetch --unshallow --tags` brings the others"
-        return error("revision", f"there is no revision `{revision}`", hint=hint)
+        return cut_off(handle, f"the commits that it has do not include `{revision}`")
     names = {name for refs in names_at(handle).values() for name in refs}
     folded = {name.lower(): name for name in names}
     recent = {commit[:7] for commit in islice(_history(handle), 200)}

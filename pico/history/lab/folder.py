@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git import command as git
 from pico.history.git.commit import Commit, Head
+from pico.history.git.shallow import boundary, lacking_parents
 from pico.history.lab.files import write_file
 from pico.history.lab.missing_files import gone_at, missing_files
 from pico.history.lab.notes import Note, note_path, notes, read_note, require_part, with_note
@@ -52,7 +53,8 @@ class CommitEntry:
     """One commit with what it changed on the table against its first parent, or why that can't be told.
 
     Where the history was asked for it: the `runs` that it carries, and how far its state is proven (`standing`; None
-    where nothing claims to prove it). `first`: no commit before it has the lab.
+    where nothing claims to prove it). `first`: no commit before it has the lab. `shallow`: the clone lacks the commit
+    before it, so that nobody can tell what it changed.
     """
 
     commit: Commit
@@ -61,6 +63,7 @@ class CommitEntry:
     runs: tuple[Run, ...] = ()
     first: bool = False
     standing: Standing | None = None
+    shallow: bool = False
 
     @property
     def evidence(self) -> str:
@@ -287,6 +290,8 @@ class LabFolder:
             after = self.historic(commit.id)
         except PicoError as exc:
             return CommitEntry(commit=commit, unreadable=str(exc.diagnostics[0].summary))
+        if not commit.parents and commit.id in boundary(self.history().common):
+            return CommitEntry(commit=commit, unreadable=lacking_parents(self.history().handle), shallow=True)
         return CommitEntry(commit=commit, changes=self.since(commit.parents[0] if commit.parents else None, after))
 
     def since(self, commit: str | None, after: tuple[Setup, LabState]) -> tuple[Change, ...]:

@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.history.git import command as git
 from pico.history.git.commit import Commit
+from pico.history.git.shallow import cut_off
 from pico.history.git.unread import read_tree
 from pico.history.lab.folder import LabFolder, edited
 from pico.history.lab.notes import is_note
@@ -49,6 +50,8 @@ def merge_revision(folder: LabFolder, revision: str, check: Check, message: str 
     _refuse_unfit(folder)
     handle = opened(repository.root)
     base = handle.merge_base(ours.id, theirs.id)
+    if base is None and handle.is_shallow:
+        raise PicoError(cut_off(handle, f"does not reach back to a commit that {revision} and HEAD have in common"))
     if base is None:
         hint = "`git merge --allow-unrelated-histories` does it all the same"
         raise PicoError(error("unrelated", f"{revision} and HEAD have no commit in common", hint=hint))

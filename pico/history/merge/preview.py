@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from pico.diagnostics import PicoError, error
+from pico.history.git.shallow import cut_off
 from pico.history.git.unread import read_tree
 from pico.history.merge.commits import label_of, refusals
 from pico.history.merge.markers import Labels
@@ -20,6 +21,8 @@ def merged_files(repository: Repository, folder: Path, revision: str) -> dict[st
     ours, theirs = repository.resolve("HEAD"), repository.resolve(revision)
     handle = opened(repository.root)
     base = handle.merge_base(ours.id, theirs.id)
+    if base is None and handle.is_shallow:
+        raise PicoError(cut_off(handle, f"does not reach back to a commit that {revision} and HEAD have in common"))
     if base is None:
         raise PicoError(error("unrelated", f"{revision} and HEAD have no commit in common"))
     if str(base) in (ours.id, theirs.id):

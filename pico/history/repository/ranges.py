@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from pico.diagnostics import PicoError, error
+from pico.history.git.shallow import cut_off
 from pico.history.repository.repository import Repository
 
 _SIGN = re.compile(r"\.{2,}")
@@ -72,8 +73,9 @@ def merge_base(repository: Repository, a: str, b: str) -> str:
     """Return the commit in which two revisions parted; raises PicoError where they have no history in common."""
     found = repository.handle.merge_base(repository.resolve(a).id, repository.resolve(b).id)
     if found is None:
-        hint = (
-            "this clone may hold only the last commits: `git fetch --unshallow`" if repository.handle.is_shallow else ""
-        )
-        raise PicoError(error("range", f"{a} and {b} have no commit in common", hint=hint or f"`pico diff {a} {b}`"))
+        if repository.handle.is_shallow:
+            raise PicoError(
+                cut_off(repository.handle, f"does not reach back to a commit that {a} and {b} have in common")
+            )
+        raise PicoError(error("range", f"{a} and {b} have no commit in common", hint=f"`pico diff {a} {b}`"))
     return str(found)

@@ -12,6 +12,7 @@ from typing import Any, Literal
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.history.git import command as git
 from pico.history.git.commit import Commit
+from pico.history.git.shallow import boundary, cut_off
 from pico.history.lab.folder import LabFolder, between
 from pico.history.merge.commits import coupled_warnings, judged, label_of, manifests_in, planned_trailers
 from pico.history.merge.trees import blobs, manifest_tree, opened, unite_trees, with_files
@@ -135,6 +136,8 @@ def _step(
     inside = repository.relative(folder.root)
     commit = repository.resolve(revision)
     name = commit.short if revision.startswith(("HEAD", "@")) else label_of(commit, revision)
+    if commit.id in boundary(repository.common):
+        raise PicoError(cut_off(handle, f"does not have the commit before {name}, which says what {name} changed"))
     parent = _parent(folder, commit, name, mainline)
     made = manifest_tree(handle, handle[commit.id].tree, inside)
     was = manifest_tree(handle, handle[parent.id].tree if parent else None, inside)
