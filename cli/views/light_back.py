@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 LIKELY = 0.05
 """The probability from which a suspect is told."""
+MOST = 8
+"""How many suspects are told at most."""
 TELLS = 0.1
 """From which share of its standard deviation on it is shown that a number is to be another one."""
 
@@ -86,16 +88,13 @@ def _off(part: Restood) -> str:
 
 def suspected(suspects: Sequence[Suspect]) -> list[str]:
     """Return what probably happened, the likeliest first: `87 %  ly_150: moved across, +0.05 ± 0.002 mm up`."""
-    from .morning import said
+    from .suspects import lines
 
-    known = [one for one in suspects if one.part and one.probability >= LIKELY][:3]
     if not suspects:
         return []
-    lines = [f"  {100 * one.probability:3.0f} %  {one.part}: {said(one)}" for one in known]
-    if known and known[0].like:
-        rest = f"No reading tells {known[0].part} from {listed(known[0].like)}, where the same would show the same."
-        lines += [paint("dim", row) for row in wrap(rest, "         ")]
-    return lines or ["  No single change of a known part explains it."]
+    return lines([one for one in suspects if one.part][:MOST], LIKELY) or [
+        "  No single change of a known part explains it."
+    ]
 
 
 def data(found: Sequence[Compared], *, goal: str = "", suspects: Sequence[Suspect] = ()) -> dict[str, Any]:

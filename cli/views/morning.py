@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
 
+from . import suspects
 from .style import ago, columns, listed, paint, seconds, wrap
 
 if TYPE_CHECKING:
@@ -19,8 +19,8 @@ TOLD = 3.0
 """Standard deviations of what is usual from which a change is shown."""
 MUCH = 999.0
 """Standard deviations above which a change is only told to be more."""
-MOST, MANY = 4, 8
-"""How many causes are told, and how many names in a row."""
+MANY = 8
+"""How many names are told in a row."""
 SHOWN, SURE = 0.05, 0.5
 """Probabilities: of a cause that is told, and of nothing unusual where it is the likeliest."""
 _INDENT = " " * 9
@@ -51,6 +51,8 @@ def text(morning: Morning) -> str:
         quiet = next((s.probability for s in morning.suspects if not s.part), 1.0)
         took = f"{len(morning.readings)} quantities in {seconds(morning.seconds)}"
         title = paint("green", f"Nothing unusual {since}: {took}, {100 * quiet:.0f} % sure.")
+        if all(one.change is None for one in morning.readings):
+            title = paint("yellow", f"Nothing is known of what happened {since}: no reading could be compared.")
         return "\n".join([title, *_table(changed), *_moved(morning), *kept, *_lacks(morning)])
     title = paint("yellow", f"Something happened {since}:")
     rows = _table(changed)
@@ -156,9 +158,7 @@ def _suspects(found: Morning) -> list[str]:
     """Return what happened: of each cause who may be it, and its repair."""
     lines, whole = list[str](), len(found.causes) > 1
     for n, group in enumerate(found.causes):
-        told = list(_alike(list(group)))[:MOST]
-        shares = [(sum(s.probability for s in same), same) for same in told]
-        lines += [row for share, same in shares if share >= SHOWN for row in _cause(share, same)]
+        lines += suspects.lines(group, SHOWN)
         if whole:
             lines += wrap(f"Repair: {found.repairs[n]}.", _INDENT)
     unexplained = next((s.probability for s in found.suspects if s.kind == "something else"), 0.0)
@@ -189,26 +189,6 @@ def _unexplained(found: Morning) -> str:
     return f"{these} {whole} unexplained; something else changed as well."
 
 
-def _alike(suspects: list[Suspect]) -> Iterator[list[Suspect]]:
-    """Yield suspects, each with those that the same befell and that nothing tells from it."""
-    while suspects:
-        first = suspects[0]
-        same = [s for s in suspects if s is first or (s.part in first.like and s.kind == first.kind)]
-        yield same
-        suspects = [s for s in suspects if s not in same]
-
-
-def _cause(share: float, same: list[Suspect]) -> list[str]:
-    first, parts = same[0], [s.part for s in same]
-    who = first.part if len(same) == 1 else f"one of {listed(parts, MANY)}, which nothing tells apart"
-    rows = wrap(f"{who}: {said(first)}", _INDENT)
-    lines = [f"  {100 * share:3.0f} %  {rows[0].strip()}", *rows[1:]]
-    if like := [part for part in first.like if part not in parts]:
-        rest = f"No reading tells {first.part} from {listed(like)}, where another change would show the same."
-        lines += [paint("dim", row) for row in wrap(rest, _INDENT)]
-    return lines
-
-
 def said(one: Suspect) -> str:
     """Return what probably happened, with its size: `zero of angle, by 0.50 ± 0.01 deg`."""
     sizes = []
@@ -237,7 +217,8 @@ def _lacks(found: Morning) -> list[str]:
 
 
 def data(found: Morning) -> dict[str, Any]:
-    """Return schema `pico.morning/v1`: `reference` (when, empty where none), `age` of it [s], `unusual`, `readings`,
-    `moved`, `causes` (of each the suspects, the likeliest first) with their `repairs`, `suspects` by probability,
+    """Return schema `pico.morning/v1`: `reference` (when, empty where none), `age` of it [s], `unusual`,
+    `readings`, `moved`, `causes` (of each the suspects, the likeliest first) with their `repairs`, `suspects` by
+    probability (of those in each other's `like` only the sum rests on readings, how it is shared is the prior),
     `blind`, `unexplained`, `repair`, `lacks`."""
     return {"schema": "pico.morning/v1", **as_json(found)}

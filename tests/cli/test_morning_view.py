@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
+from cli.views.light_back import suspected
 from cli.views.morning import data, text
 from pico.bench.drifting.morning import Morning, Read
 from pico.diagnosis.grouping import Suspect
@@ -44,3 +46,30 @@ def test_a_reading_that_changed_as_a_moved_part_predicts_is_listed() -> None:
     for unusual in (True, False):
         said = text(replace(FOUND, readings=(follows, calm), unusual=unusual))
         assert "fc.power" in said and "pm.power" not in said
+
+
+def test_what_readings_do_not_tell_apart_has_one_probability_and_none_each() -> None:
+    laser = Suspect("laser", "pointing", 0.49, {}, {}, {}, like=("cam", "ly_150", "lx_100"))
+    cam = Suspect("cam", "moved across", 0.30, {}, {}, {}, like=("laser", "ly_150", "lx_100"))
+    lens = Suspect("ly_150", "moved across", 0.12, {}, {}, {}, like=("laser", "cam", "lx_100"))
+    plate = Suspect("hwp", "zero of angle", 0.08, {}, {}, {})
+    for said in (text(replace(FOUND, causes=((laser, cam, lens, plate),))),
+                 "\n".join(suspected((laser, cam, lens, plate)))):  # fmt: skip
+        assert re.findall(r"(\d+) %", said) == ["91", "8"], said
+        words = " ".join(said.split())
+        assert "91 % one of these, which the readings do not tell apart: - laser: pointing" in words
+        assert "- one of cam and ly_150, which nothing tells apart: moved across" in words
+        assert "8 % hwp: zero of angle" in words and "No reading tells laser from lx_100," in words
+
+
+def test_a_cause_that_readings_tell_from_the_others_keeps_its_probability() -> None:
+    one = Suspect("p1", "zero of angle", 0.7, {}, {}, {})
+    other = Suspect("p1", "leak", 0.25, {}, {}, {})
+    assert re.findall(r"(\d+) %", text(replace(FOUND, causes=((one, other),)))) == ["70", "25"]
+
+
+def test_without_a_reading_that_could_be_compared_nothing_is_said_to_be_sure() -> None:
+    quiet = Suspect("", "nothing unusual", 0.9, {}, {}, {})
+    missed = Read("pm.power", "share", "mW", None, 0.2, 0.003, None)
+    said = text(replace(FOUND, unusual=False, causes=(), suspects=(quiet,), readings=(missed,)))
+    assert "sure" not in said and "no reading could be compared" in said
