@@ -112,13 +112,17 @@ class Session:
         from pico.bench.bench import Bench
         from pico.manifest.load import find_lab
 
+        from .views.style import count_waits, no_waits
+
         if self.backend is not None:
             opener(self.backend)
         place = self.place(find_lab(self.folder))
         bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place)
         loaded()
         self._head(bench.setup.lab.name, place)
+        count_waits(lambda: bench.waits)
         if self.context is not None:
+            self.context.call_on_close(lambda: count_waits(no_waits))
             self.context.call_on_close(bench.close)
             self.context.call_on_close(lambda: self.tell(bench.folder.recovered))  # while a guard was still at it
         if writing:

@@ -39,6 +39,14 @@ def _finite(value: float) -> float:
     return value
 
 
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
 Dx = Annotated[float, typer.Option("--dx", help="Millimeters to the right.", callback=_finite)]
 Dy = Annotated[float, typer.Option("--dy", help="Millimeters away from you.", callback=_finite)]
 Dz = Annotated[float, typer.Option("--dz", help="Millimeters up.", callback=_finite)]
@@ -200,7 +208,7 @@ def _show_hidden(context: typer.Context, name: str | None = None) -> None:
 @app.command()
 def wait(
     context: typer.Context,
-    how_long: Annotated[str, typer.Argument(metavar="TIME", help="For example '8 h' or 300 (seconds).")],
+    how_long: Annotated[str, typer.Argument(metavar="TIME", help="For example 8h, '8 h' or 300 (seconds).")],
 ) -> None:
     """Let time pass on the bench's clock: light drifts meanwhile, where the lab has an environment.
 
@@ -211,7 +219,7 @@ def wait(
     from pico.model.quantities import QuantityError, convert
 
     try:
-        seconds = _finite(float(convert(how_long if " " in how_long else f"{how_long} s", "s")))
+        seconds = _finite(float(convert(f"{how_long} s" if _is_number(how_long) else how_long, "s")))
     except (QuantityError, ValueError) as exc:
         raise PicoError(error("usage", f"`{how_long[:40]}` is no time: {exc}", hint="for example '8 h'")) from None
     if seconds < 0:

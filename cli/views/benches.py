@@ -43,7 +43,7 @@ def line(one: BenchState, *, meant: bool) -> list[str]:
     where = ""
     if one.attached and not one.here:
         where = f"attached to {one.attached}"
-    said = [f"last run {one.last}, {ago(one.began)}" if one.last and one.began else "no runs"]
+    said = [f"last run {one.last}, {ago(one.began, waits=one.waits)}" if one.last and one.began else "no runs"]
     said += [paint("yellow", count(one.pending, "run") + " not committed")] if one.pending else []
     said += [where] if where else []
     said += [f"in use by {inert(one.holder.said)}"] if one.holder else []

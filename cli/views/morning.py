@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pico.model.record import as_json
 
 from . import suspects
-from .style import ago, columns, listed, paint, seconds, wrap
+from .style import columns, listed, paint, past, seconds, wrap
 
 if TYPE_CHECKING:
     from pico.bench.mornings import Morning, Read
@@ -45,7 +45,7 @@ def text(morning: Morning) -> str:
     if not morning.reference:
         told = kept or [_first(morning)]
         return "\n".join([*told, "", *_table(morning.readings), *_lacks(morning)])
-    since = f"since {morning.reference[:16].replace('T', ' ')} ({ago(morning.reference)})"
+    since = f"since {morning.reference[:16].replace('T', ' ')} ({past(morning.age)})"
     changed = [r for r in morning.readings if _unusual(r, morning.unusual)]
     if not morning.unusual:
         quiet = next((s.probability for s in morning.suspects if not s.part), 1.0)

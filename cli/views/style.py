@@ -5,11 +5,12 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from datetime import datetime
 from typing import Any, TextIO
 
 from pico.base import clock
+from pico.base.clock import Waits
 from pico.model.state import is_reference, said
 
 WIDTH = 100
@@ -142,9 +143,30 @@ def seconds(value: float) -> str:
     return f"{int(value) // 60} min {int(value) % 60:02d} s"
 
 
-def ago(moment: str, now: datetime | None = None) -> str:
-    """Return how long ago a moment (ISO 8601) was: `just now`, `40 s ago`, `3 min ago`, `2 h ago`, `5 d ago`."""
-    past = ((now or clock.here()) - clock.parse(moment)).total_seconds()
+def no_waits() -> Waits:
+    """Return the waits of a bench whose clock is that on the wall."""
+    return ()
+
+
+_waits: list[Callable[[], Waits]] = [no_waits]
+
+
+def count_waits(waits: Callable[[], Waits]) -> None:
+    """Count ages from now on by the clock of a bench, of which `waits` returns what a simulated one was told to let
+    pass."""
+    _waits[:] = [waits]
+
+
+def ago(moment: str, now: datetime | None = None, *, waits: Waits | None = None) -> str:
+    """Return how long ago a moment (ISO 8601) was on the clock of the bench: `just now`, `40 s ago`, `3 min ago`,
+    `2 h ago`, `5 d ago`. `now`: on the wall, without waits. `waits`: of another bench than the one that is open."""
+    if now is not None:
+        return past((now - clock.parse(moment)).total_seconds())
+    return past(clock.seconds_on_bench(moment, clock.now_ms(), _waits[0]() if waits is None else waits))
+
+
+def past(past: float) -> str:
+    """Return `just now`, `40 s ago`, `3 min ago`, `2 h ago` or `5 d ago` for some seconds."""
     if past < 10:
         return "just now"
     size, unit = next((s, u) for s, u in ((86400, "d"), (3600, "h"), (60, "min"), (1, "s")) if past >= s)

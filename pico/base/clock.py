@@ -6,6 +6,7 @@ an arming; what is measured within one process is measured by `time.monotonic`.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from datetime import UTC, datetime
 
 
@@ -72,6 +73,20 @@ def from_epoch(seconds: float) -> datetime:
 def epoch(text: str) -> float:
     """Return a time written in ISO 8601 as seconds since the beginning of 1970; raises ValueError."""
     return parse(text).timestamp()
+
+
+Waits = Sequence[tuple[str, float]]
+"""When a simulated bench was told to let time pass (ISO 8601), and how long [s]."""
+
+
+def seconds_on_bench(earlier: str, later: str, waits: Waits | None = None) -> float:
+    """Return the seconds from one time to a later one as the clock of a bench counts them: with those that a simulated
+    one was told to let pass in between (`waits`). Times in ISO 8601, in UTC if they name no time zone. Raises
+    ValueError."""
+    begin, end = parse_utc(earlier), parse_utc(later)
+    told = [(parse_utc(at), seconds) for at, seconds in waits or ()]
+    passed = sum(seconds for at, seconds in told if begin < at and at.replace(microsecond=0) <= end)
+    return (end - begin).total_seconds() + passed
 
 
 def seconds_between(earlier: str, later: str) -> float:

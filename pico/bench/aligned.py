@@ -180,7 +180,9 @@ def _alignment(
         return standing("lost", str(data.get("why") or "it did not come to its end"), end.at, data.get("last"))
     last = data.get("last")
     upset = _upset_since(setup, seen, goal, _begun_since(records, end))
-    old = bool(goal.valid_for) and clock.seconds_between(end.at, now) > convert(goal.valid_for or "0 s", "s")
+    old = bool(goal.valid_for) and clock.seconds_on_bench(end.at, now, seen.waits) > convert(
+        goal.valid_for or "0 s", "s"
+    )
     reasons = {
         "it was another goal then": _wanted(begun.data["arguments"].get("what", {})) != _wanted(as_json(goal)),
         (other := _swapped(setup, seen, goal, begun.data["arguments"])): bool(other),

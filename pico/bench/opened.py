@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self, TypeVar
 
 from pico.backends.devices import HARDWARE, SIMULATOR, opener
+from pico.base.clock import Waits
 from pico.bench.running.loop import LoopThread
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.edge.network.meant import meant
@@ -47,6 +48,8 @@ class Opened:
         self.lock_timeout = 0.0
         self.recording: str | None = None
         """The open run that what runs here is a step of, see `pico.scripting.recording`."""
+        self.waits: Waits = ()
+        """When a simulated bench, as it was seen last, was told to let time pass, and how long [s]."""
         self.thread = LoopThread()
         self._edge: Edge | None = None
 
@@ -139,7 +142,9 @@ class Opened:
 
     def observe(self) -> Observation:
         """Look, and return what was seen."""
-        return self.wait(self.edge.observe())
+        seen = self.wait(self.edge.observe())
+        self.waits = seen.waits or ()
+        return seen
 
     def suit(self, plan: Plan) -> None:
         """Have the fidelity that a plan was made for."""

@@ -102,6 +102,8 @@ class Observation:
     `licences`: what lets lasers emit now, by name, as the edge knows it; of one that it does not name nothing does,
     unless its class is 1 or 2.
 
+    `waits`: when a simulated bench was told to let time pass (ISO 8601), and how long [s]; None for no such time.
+
     `problems`: what could not be told, or is not as it should be; an error about a component keeps a plan from
     touching it.
     """
@@ -117,6 +119,7 @@ class Observation:
     licences: Mapping[str, Licence] | None = None
     problems: tuple[Diagnostic, ...] = ()
     aligned: Mapping[str, Aligned] | None = None
+    waits: tuple[tuple[str, float], ...] | None = None
 
     @property
     def known_values(self) -> dict[str, dict[str, Value]]:

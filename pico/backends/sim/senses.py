@@ -38,6 +38,7 @@ def sensed(setup: Setup, world: World, taken: Mapping[str, Taken], backend: str,
         components=components,
         robots=robots,
         person=world.person,
+        waits=world.waits or None,
     )
 
 

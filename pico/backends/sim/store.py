@@ -11,6 +11,7 @@ from typing import Any
 
 from pico.backends.sim.reconcile import reconcile
 from pico.backends.sim.world import FreePose, RememberedShape, World, WorldBody, new_world
+from pico.base import clock
 from pico.base.state_files import WORLD
 from pico.cameras.errors import CameraShift
 from pico.diagnostics import Diagnostic
@@ -85,6 +86,7 @@ def world_from_json(data: Any) -> World:
         stickers={str(k): None if v is None else int(v) for k, v in data.get("stickers", {}).items()},
         person=data.get("person") is True,
         stuck=tuple(str(one) for one in data.get("stuck", ())),
+        waits=tuple((_time(at), _number(seconds)) for at, seconds in data.get("waits", ())),
     )
 
 
@@ -92,6 +94,11 @@ def _number(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
         raise ValueError(f"{value!r} is no finite number")
     return float(value)
+
+
+def _time(text: Any) -> str:
+    clock.parse_utc(str(text))
+    return str(text)
 
 
 def _numbers(values: Any) -> tuple[float, ...]:

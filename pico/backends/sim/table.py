@@ -13,6 +13,7 @@ from pico.backends.sim.hand import clear, hidden, nudge, power_cycle, remove, sl
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, new_world
 from pico.backends.world import Held
+from pico.base import clock
 from pico.cameras.errors import CameraShift, true_cameras
 from pico.model.observation import Observation
 from pico.model.pose import Pose
@@ -116,7 +117,12 @@ class SimulatedTable:
 
     def wait(self, seconds: float) -> None:
         """Let time pass on the bench's clock [s], in which the world does what it does by itself."""
-        self._change("sim wait", lambda world: replace(world, clock=world.clock + max(0.0, seconds)))
+        passed = max(0.0, seconds)
+
+        def later(world: World) -> World:
+            return replace(world, clock=world.clock + passed, waits=(*world.waits, (clock.now_ms(), passed)))
+
+        self._change("sim wait", later)
 
     def power_cycle(self) -> None:
         """Switch the bench off and on: what must be homed is unknown, electronics are dark and closed."""

@@ -77,7 +77,7 @@ class World:
 
     `openings`: how far the pads of grippers are apart [mm], all the way where it is not told. `cameras`: how far those
     were bumped that are not where they were when the world was new. `person`: somebody is at the table. `stuck`: axes
-    that no motor moves any more.
+    that no motor moves any more. `waits`: when it was told to let time pass (ISO 8601), and how long [s].
     """
 
     schema: str = WORLD.schema
@@ -93,6 +93,7 @@ class World:
     stickers: Mapping[str, int | None] = field(default_factory=dict)
     person: bool = False
     stuck: tuple[str, ...] = ()
+    waits: tuple[tuple[str, float], ...] = ()
 
     def with_body(self, name: str, **changes: Any) -> World:
         """Return the world with fields of component `name` replaced."""
@@ -191,4 +192,5 @@ def observe(world: World, backend: str, observed_at: str) -> Observation:
         unknown=world.unknown,
         robots=world.robots,
         person=world.person,
+        waits=world.waits or None,
     )

@@ -66,7 +66,7 @@ def compared(
     if changed and not first:
         first = (repair(survey.nominal.setup, None, values),)
     return replace(
-        found, reference=reference.at, age=clock.seconds_between(reference.at, found.at),
+        found, reference=reference.at, age=clock.seconds_on_bench(reference.at, found.at, survey.seen.waits),
         readings=reads, moved=moved, causes=causes, repairs=repairs, suspects=suspects,
         blind=verdict.blind if verdict else (),
         unexplained=missed, unusual=changed or bool(missed) or bool(lost) or any(m.by_hand for m in moved),

@@ -6,6 +6,8 @@ from contextlib import suppress
 from pathlib import Path
 
 from pico.backends.devices import EMULATED, HARDWARE, shipped
+from pico.base.clock import Waits
+from pico.base.state_files import WORLD
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge.network.opening import holder_of, remembered
 from pico.edge.network.remotes import Place
@@ -36,6 +38,8 @@ class BenchState:
     """Whether that is this worktree."""
     holder: Holder | None = None
     """Who moves it now."""
+    waits: Waits = ()
+    """When a simulated bench was told to let time pass, and how long [s]."""
 
 
 def bench_states(root: Path) -> tuple[BenchState, ...]:
@@ -62,8 +66,16 @@ def bench_state(place: BenchPlace) -> BenchState:
     return BenchState(
         bench=place.name, pending=pending, last=last.run if last else None, began=last.started_at if last else None,
         attached=str(there.root) if used else None, here=used and there.root in (place.root, lab and lab.root),
-        holder=holder_of(place),
+        holder=holder_of(place), waits=_waits(place),
     )  # fmt: skip
+
+
+def _waits(place: BenchPlace) -> Waits:
+    """Return the waits of a simulated bench; none of another one, or of one that can't be read."""
+    with suppress(PicoError, ValueError, TypeError):
+        found = WORLD.read(WORLD.path(place.folder), lambda data: data.get("waits", ()))
+        return tuple((str(at), float(seconds)) for at, seconds in found or ())
+    return ()
 
 
 def other_benches(place: Place | None, root: Path) -> tuple[BenchPlace, ...]:
