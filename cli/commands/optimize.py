@@ -137,7 +137,7 @@ def _optimize(
     report, found = bench.goals.optimize(plan, heard, say)
     if terminal:
         write(sys.stdout, "", end="", over=True)
-    dark = bench.measurements.dark() if found.measurements and not found.last else ""
+    dark = bench.measurements.dark() if found.columns and not found.last else ""
     dark = "shorten the exposure, or put a filter before the detector" if dark and found.saturated else dark
     began: Mapping[str, float] = next(
         (op.arguments["from"] for op in plan.operations if op.primitive == "optimize"), {}

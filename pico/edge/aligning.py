@@ -30,6 +30,7 @@ from pico.optimize.loop import Ask, Limits, Outcome, Reading, Tried, believed, l
 from pico.optimize.problem import Aim, Nominal, Problem, Variable, nominal_from_json
 from pico.optimize.registry import made
 from pico.places.bench import BenchPlace
+from pico.planning.darkness import unlit
 
 if TYPE_CHECKING:
     from pico.optimize.problem import Algorithm
@@ -119,6 +120,8 @@ class Aligning:
         """Seek a goal, and where it is dark to begin with those that come before it first, each as far as it comes;
         return the run, its outcome, and what the journal holds of those before."""
         run, former = self._run(operation, key, seen), list[dict[str, Any]]()
+        if why := unlit(self._setup, seen, run.goal):
+            return run, Outcome(None, None, (), met=False, why=why), former
         stages = operation.arguments.get("first") or ()
         if not stages or self._taken_up(run) != run.problem or await run.bright():
             return run, await self._walk(run), former

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from pico.model.goal import Goal
 from pico.model.observation import Observation, slot_at
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
+from pico.model.vocabulary import measured_in
 from pico.optics.axis import Values, beams
 from pico.planning.goal_light import standing_poses
 
@@ -34,6 +36,19 @@ def darkness(setup: Setup, seen: Observation, wanted: LabState | None, detector:
     placed = {name: pose for name, (slot, pose) in meant.items() if slot is None}
     along = [name for way in _ways(setup, placed, known, detector) for name in way]
     return tuple(gone for name in dict.fromkeys((*along, detector)) if (gone := _gone(setup, seen, name)))
+
+
+def unlit(setup: Setup, seen: Observation, goal: Goal) -> str:
+    """Return that no light reaches any detector that a goal reads, with what shuts it: `no light reaches cam:
+    laser.shutter is closed`; empty if light may come, also where the goal itself opens something to look."""
+    opened = {address.partition(".")[2] for look in (goal.looks or {}).values() for address in look}
+    looks = goal.looks or ("",)
+    named = dict.fromkeys(c for look in looks for c, _ in measured_in(setup, goal.seen_in(look)) if detects(setup, c))
+    if not named or opened & {"shutter", "emission"}:
+        return ""
+    found = [darkness(setup, seen, None, name) for name in named]
+    reasons = dict.fromkeys(one for some in found for one in some)
+    return f"no light reaches {' or '.join(named)}: {', '.join(reasons)}" if all(found) else ""
 
 
 def _ways(setup: Setup, poses: Mapping[str, Pose], values: Values, detector: str) -> Iterator[tuple[str, ...]]:

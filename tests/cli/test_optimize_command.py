@@ -123,6 +123,14 @@ def test_what_is_not_met_is_6_and_says_why(placed: Path, pico: Pico) -> None:
     answer = pico("optimize", "centre", "ly_150", "cam", "--yes")
     assert answer.code == 6 and "no light" in " ".join(answer.out.split())
     assert "= help: laser.shutter is closed" in answer.out
+    assert "not met in 0 measurements" in answer.out, "what is shut is asked before the first search"
+    for goal in (("centred",), ("null", "p1", "cam"), ("peak", "p1", "cam")):
+        lines = pico("optimize", *goal, "--yes", "--json").out.splitlines()
+        found = json.loads(lines[-1])
+        assert found["measurements"] == 0 and found["why"] == "no light reaches cam: laser.shutter is closed"
+    pico("set", "laser.shutter", "open", "--yes")
+    pico("set", "laser.emission", "false", "--yes")
+    assert "no light reaches cam: laser is switched off" in " ".join(pico("optimize", "centred", "--yes").out.split())
     assert pico("get", "ly_150.stage_y", "--json").data["values"]["stage_y"]["value"] == pytest.approx(0, abs=1e-6)
 
 

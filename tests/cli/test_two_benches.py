@@ -183,6 +183,10 @@ def test_a_commit_takes_the_runs_of_its_bench_and_names_the_others(lab: Path, pi
     entry = done(pico, "log", "-n", "1")["commits"][0]
     assert (entry["bench"], entry["evidence"]) == ("emulated", "emulated")
     assert {run["bench"] for run in entry["runs"]} == {"emulated"} and not runs(pico, *EMULATED)
+    listed = done(pico, "runs", "list")["runs"]
+    assert [one["document"]["bench"] for one in listed] == ["emulated", "emulated", "sim", "sim"]
+    rows = [line.split() for line in pico("runs", "list").out.splitlines() if line.startswith("20")]
+    assert [next(w for w in row if w in ("sim", "emulated")) for row in rows] == ["emulated", "emulated", "sim", "sim"]
 
 
 def test_a_plan_is_for_one_bench(lab: Path, pico: Pico) -> None:
