@@ -68,6 +68,11 @@ class Optimized:
     solution: Mapping[str, float] | None = None
     saturated: bool = False
 
+    def __repr__(self) -> str:
+        said = "met" if self.met else "not met"
+        spent = f"{self.measurements} measurements, {self.seconds:.1f} s, {self.algorithm or 'no algorithm'}"
+        return f"<{self.goal or 'goal'}: {said} ({spent}): {self.why}>"
+
 
 def optimized(events: Sequence[Event]) -> Optimized:
     """Return what the events of a run say of the optimization in it."""

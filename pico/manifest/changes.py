@@ -45,9 +45,8 @@ def differences(
             entries |= {k: rounded(setup, name, k, v) for k, v in sorted(seen.values.items()) if _known(setup, name, k)}
         elif light:
             home = setup.lab.inventory[name].home
-            entries = {k: rounded(setup, name, k, seen.values[k]) for k in sorted(light)} | (
-                {"slot": home} if home else {}
-            )
+            entries |= {k: rounded(setup, name, k, seen.values[k]) for k in sorted(light)}
+            entries |= {"slot": home} if home else {}
         if named is not None:
             entries = {k: v for k, v in entries.items() if holds(named, name, "pose" if k == "slot" else k)}
         if entries:

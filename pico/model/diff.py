@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import Any, Literal
 
 from pico.model.catalog import Tunable
@@ -37,6 +38,13 @@ class Change:
     def counts(self) -> bool:
         """Whether two states are not the same because of it."""
         return not (self.tolerated or self.requested)
+
+
+def addresses_of(changes: Sequence[Change], most: int = 4) -> str:
+    """Return which tunables some changes are of, the first by address: `p2, p1.angle and 3 more`."""
+    names = [c.component if c.tunable == "pose" else f"{c.component}.{c.tunable}" for c in changes]
+    more = len(names) - most
+    return ", ".join(names[:most]) + (f" and {more} more" if more > 0 else "")
 
 
 def place_json(slot: str | None, pose: Pose) -> Any:

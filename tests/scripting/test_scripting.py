@@ -192,6 +192,22 @@ def test_results_show_themselves_shortly_and_in_a_notebook(lit: Bench) -> None:
     assert "p1" in lit.live()._repr_html_() and "cam.centroid" in run._repr_html_()
 
 
+def test_what_the_services_return_shows_itself_in_a_line(lit: Bench) -> None:
+    lit.apply("C3")
+    lit.set({"p1.angle": 7})
+    captured, status, drift = lit.capture(write=False), lit.status(), lit.drift.look()
+    assert repr(captured) == "<to be captured: p1.angle into table.yaml>"
+    assert "1 off" in repr(status) and repr(drift).endswith("p1.angle left it>")
+    commit = lit.commit("p1 at 7", mode="capture")
+    assert f"<commit {commit.commit[:7]} on " in repr(commit) and "'p1 at 7'; p1.angle; kinematic, sim>" in repr(commit)
+    things = [captured, status, drift, commit, lit.status(), lit.capture(), lit.verify(), lit.drift.look(),
+              lit.optimize("null", "p1", "cam"), lit.morning()]  # fmt: skip
+    for thing in things:
+        assert 10 < len(repr(thing)) < 250 and "\n" not in repr(thing) and "=" not in repr(thing), repr(thing)
+    assert "all equal" in repr(things[4]) and "nothing differs" in repr(things[5])
+    assert "7 deg" in commit._repr_html_() and "p1.angle" in status._repr_html_()
+
+
 def test_names_are_exported_and_imported_only_when_they_are_asked_for() -> None:
     for name in pico.__all__:
         assert getattr(pico, name) is not None

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.model.diff import Change, value_distance
+from pico.model.diff import Change, addresses_of, value_distance
 from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
 from pico.model.operation import touched_by
 from pico.model.pose import Pose, angle_between
@@ -82,6 +82,11 @@ class Drifted:
     cut_short: tuple[Diagnostic, ...] = ()
     light: tuple[LightLost, ...] | None = None
     unread: tuple[str, ...] = ()
+
+    def __repr__(self) -> str:
+        lost = f"; light lost: {', '.join(one.goal for one in self.light)}" if self.light else ""
+        what = f"{addresses_of([d.change for d in self.beyond])} left it" if self.beyond else "nothing left it"
+        return f"<drift from {self.head}: {what}{lost}>"
 
 
 def news(before: Sequence[Drift], now: Sequence[Drift]) -> tuple[list[Drift], list[str]]:

@@ -82,6 +82,12 @@ class Morning:
     accepted: bool = False
     set_back: bool = True
 
+    def __repr__(self) -> str:
+        causes = "; ".join(f"{group[0].part}: {group[0].kind}" for group in self.causes if group)
+        said = causes or ("something unusual" if self.unusual else "nothing unusual")
+        against = f"since {self.reference}: {said}" if self.reference else "no reference yet"
+        return f"<morning of {self.at}, {len(self.readings)} readings; {against}>"
+
 
 @dataclass(frozen=True, eq=False)
 class Survey:

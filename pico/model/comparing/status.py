@@ -22,6 +22,7 @@ from pico.model.observation import Observation, ObservedComponent, doubtful, slo
 from pico.model.pose import Pose, angle_between, short
 from pico.model.record import record
 from pico.model.setup import Setup
+from pico.model.shown.html import table
 from pico.model.state import LabState, is_reference, place_of, references_of
 
 NOTHING: Mapping[str, str] = {}
@@ -80,6 +81,29 @@ class Status:
     rows: tuple[StatusRow, ...] = ()
     unknown: Mapping[str, Pose] = field(default_factory=dict)
     cut_short: tuple[Diagnostic, ...] = ()
+
+    def __repr__(self) -> str:
+        counts = {
+            "not committed": sum(row.edited for row in self.rows), "off": sum(row.off for row in self.rows),
+            "not seen as it should be": sum(bool(row.note) for row in self.rows),
+            "unknown": sum(row.unread for row in self.rows), "strangers": len(self.unknown),
+        }  # fmt: skip
+        said = ", ".join(f"{number} {what}" for what, number in counts.items() if number)
+        head = f" against {self.head}" if self.head else ""
+        return f"<status of {self.lab} on {self.backend}{head}: {len(self.rows)} values, {said or 'all equal'}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            (row.address, _shown(row.committed), _shown(row.desired), row.note or _shown(row.live), row.unit)
+            for row in self.rows if not row.equal
+        ]  # fmt: skip
+        return table(repr(self)[1:-1], ("", "committed", "desired", "live", "unit"), rows)
+
+
+def _shown(value: Any) -> str:
+    if isinstance(value, Mapping) and "x" in value:
+        return f"({value['x']:g}, {value['y']:g}, {value.get('yaw', 0.0):g}°)"
+    return "" if value is None else show_value(value)
 
 
 def compare(

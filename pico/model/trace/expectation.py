@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
-from pico.model.diff import Change
+from pico.model.diff import Change, addresses_of
 from pico.model.measurement import Compared
 from pico.model.record import record
 
@@ -127,6 +127,13 @@ class Verified:
     goals: tuple[GoalRead, ...] | None = None
     light: tuple[Compared, ...] | None = None
     unread: tuple[str, ...] | None = None
+
+    def __repr__(self) -> str:
+        off = f"{addresses_of(self.off)} differ" if self.off else "the bench equals it"
+        failed = sum(one.failed for one in self.expectations)
+        more = f"; {failed} of {len(self.expectations)} expectations fail" if failed else ""
+        more += "; light is not as it was" if self.dimmed else ""
+        return f"<verified against {self.goal}: {off}{more}>"
 
     @property
     def dimmed(self) -> bool:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import field
+from pathlib import PurePath
 from typing import Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
-from pico.model.diff import Change
+from pico.model.diff import Change, addresses_of
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, slot_at
 from pico.model.quantities import Value
@@ -122,6 +123,15 @@ class Captured:
     by_light: tuple[str, ...] | None = None
     aligned: Mapping[str, tuple[str, ...]] | None = None
 
+    def __repr__(self) -> str:
+        if not self.changes:
+            return "<captured: nothing differs from the manifest>"
+        done = "captured" if self.written else "to be captured"
+        return f"<{done}: {addresses_of(self.changes)} into {', '.join(PurePath(name).name for name in self.files)}>"
+
+    def _repr_html_(self) -> str:
+        return table(repr(self)[1:-1], ("part", "tunable", "change"), _rows(self.changes))
+
 
 @record
 class Committed:
@@ -145,6 +155,20 @@ class Committed:
     meta: Mapping[str, str] = field(default_factory=dict)
     aligned: Mapping[str, tuple[str, ...]] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
+
+    def __repr__(self) -> str:
+        summary, what = self.message.strip().partition("\n")[0], addresses_of(self.changes) or "no change on the table"
+        rests = f"{self.evidence}, {self.bench}" if self.bench else self.evidence
+        on = f" on {self.branch}" if self.branch else ""
+        return f"<commit {self.commit[:7]}{on}: {summary[:60]!r}; {what}; {rests or 'no evidence'}>"
+
+    def _repr_html_(self) -> str:
+        below = "; ".join(f"{d.severity}: {d.summary}" for d in self.diagnostics)
+        return table(repr(self)[1:-1], ("part", "tunable", "change"), _rows(self.changes), below)
+
+
+def _rows(changes: Sequence[Change]) -> list[tuple[str, str, str]]:
+    return [(c.component, c.tunable, c.text) for c in changes]
 
 
 @record
