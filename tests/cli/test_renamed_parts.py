@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 from pathlib import Path
 
 import pytest
+import yaml
 from commanding import Brought, Pico, edit
 
 YES = "--auto-approve"
@@ -232,3 +234,51 @@ def test_the_present_names_of_a_chain_and_of_expressions() -> None:
 def test_plans_as_json_name_what_was_renamed(lab: Path, pico: Pico) -> None:
     told = json.dumps(pico("plan", "E1-3", "--json").data["diagnostics"])
     assert "p2 is now called pol_out" in told and "inventory.p2 removed" not in told
+
+
+def other(lab: Path) -> None:
+    """A branch `other` from before the renaming, on which p2 is turned."""
+    git(lab, "switch", "-q", "-c", "other", "HEAD~1")
+    table = lab / "state/table.yaml"
+    head, p2, rest = table.read_text().partition("\n  p2:\n")
+    assert "angle: 90" in rest
+    table.write_text(head + p2 + re.sub(r"angle: 90(\.0)?", "angle: 45", rest, count=1))
+    git(lab, "commit", "-q", "-a", "-m", "p2 at 45")
+
+
+@pytest.mark.parametrize("onto", ["main", "other"])
+def test_a_merge_carries_a_change_over_to_the_new_name_of_a_part(lab: Path, pico: Pico, onto: str) -> None:
+    other(lab)
+    git(lab, "switch", "-q", onto)
+    answer = pico("merge", "other" if onto == "main" else "main", "-m", "both")
+    assert answer.code == 0, answer.err + answer.out
+    parts = yaml.safe_load((lab / "state/table.yaml").read_text())["components"]
+    assert "p2" not in parts and parts["pol_out"]["angle"] == 45
+    inventory = yaml.safe_load((lab / "lab.yaml").read_text())["inventory"]
+    assert "p2" not in inventory and inventory["pol_out"]["formerly"] == ["p2"]
+
+
+def test_a_change_of_both_sides_is_a_conflict_of_the_new_name(lab: Path, pico: Pico) -> None:
+    other(lab)
+    git(lab, "switch", "-q", "main")
+    head, name, rest = (lab / "state/table.yaml").read_text().partition("\n  pol_out:\n")
+    (lab / "state/table.yaml").write_text(head + name + re.sub(r"angle: 90(\.0)?", "angle: 30", rest, count=1))
+    git(lab, "commit", "-q", "-a", "-m", "pol_out at 30")
+    refused = pico("merge", "other")
+    assert refused.code != 0 and "pol_out.angle" in refused.err and refused.err.count("error[") == 1
+    assert git(lab, "status", "--porcelain") == ""
+
+
+def test_a_revert_of_an_older_change_reaches_the_part_by_its_new_name_and_of_the_renaming_takes_it_back(
+    brought: Brought, shel: Path, pico: Pico
+) -> None:
+    brought(turned)
+    rename(shel)
+    assert pico("bench", "update", YES).code == 0
+    git(shel, "commit", "-q", "-a", "-m", "p2 is pol_out")
+    assert pico("revert", "HEAD~1").code == 0
+    parts = yaml.safe_load((shel / "state/table.yaml").read_text())["components"]
+    assert "p2" not in parts and parts["pol_out"]["angle"] == 90
+    answer = pico("revert", "HEAD~1")
+    parts = yaml.safe_load((shel / "state/table.yaml").read_text())["components"]
+    assert answer.code == 0 and "pol_out" not in parts and parts["p2"]["angle"] == 90, answer.err

@@ -14,6 +14,7 @@ from pico.history.merge.groups import groups_of, is_lab
 from pico.history.merge.leaves import Conflict, Coupled
 from pico.history.merge.manifests import Merged, merge
 from pico.history.merge.markers import Labels
+from pico.history.merge.renames import called_alike
 from pico.manifest.file_names import is_manifest
 
 
@@ -87,7 +88,7 @@ def alike(handle: Any, trees: Sequence[Any]) -> Alike:
     paths = [path for path in set().union(*ids) if len({known.get(path) for known in ids}) > 1]
     labs = {str(PurePosixPath(p).parent) for known in ids for p, blob in known.items() if is_lab(handle[blob].data)}
     base, ours, theirs = ({path: handle[known[path]].data for path in paths if path in known} for known in ids)
-    return made_alike(base, ours, theirs, labs)
+    return made_alike(*called_alike(base, ours, theirs, labs), labs)
 
 
 def _entries(tree: Any, at: str = "") -> list[tuple[str, Any]]:
