@@ -81,8 +81,8 @@ Waits = Sequence[tuple[str, float]]
 
 def seconds_on_bench(earlier: str, later: str, waits: Waits | None = None) -> float:
     """Return the seconds from one time to a later one as the clock of a bench counts them: with those that a simulated
-    one was told to let pass in between (`waits`). Times in ISO 8601, in UTC if they name no time zone. Raises
-    ValueError."""
+    one was told to let pass in between (`waits`). What is written to the second and lies in the second of a wait counts
+    as before it. Times in ISO 8601, in UTC if they name no time zone. Raises ValueError."""
     begin, end = parse_utc(earlier), parse_utc(later)
     told = [(parse_utc(at), seconds) for at, seconds in waits or ()]
     passed = sum(seconds for at, seconds in told if begin < at and at.replace(microsecond=0) <= end)
