@@ -391,12 +391,15 @@ def test_a_journal_of_version_3_is_lifted_and_its_records_count_without_checksum
     path = lab / ".pico/benches/sim/journal.sqlite"
     with closing(sqlite3.connect(path)) as db:
         db.executescript(
+            "DROP TRIGGER INSERT_records; DROP TRIGGER INSERT_runs; DROP TRIGGER UPDATE_runs;"
+            "ALTER TABLE fence DROP COLUMN changes;"
             "ALTER TABLE runs DROP COLUMN checksum; ALTER TABLE records DROP COLUMN checksum; PRAGMA user_version=3;"
         )
+    path.with_name("changes").unlink()
     assert pico("doctor").code == 0
     assert pico("undo", "--yes").code == 0 and pico("doctor").code == 0
     with closing(sqlite3.connect(path)) as db:
-        assert db.execute("PRAGMA user_version").fetchone() == (4,)
+        assert db.execute("PRAGMA user_version").fetchone() == (5,)
         known = {row[0] is None for row in db.execute("SELECT checksum FROM records")}
     assert known == {True, False}
 
@@ -468,9 +471,12 @@ def test_a_damaged_log_beside_a_journal_is_noticed_and_one_that_was_cut_off_is_r
             journal.begin_run(f"run{number}", "plan", "test")
         base, whole = journal.path.read_bytes(), log.read_bytes()
 
-    def runs(data: bytes) -> int:
+    count = (tmp_path / "changes").read_bytes()
+
+    def runs(data: bytes, counted: bytes = b"") -> int:
         for path in tmp_path.iterdir():
             path.unlink()
+        (tmp_path / "changes").write_bytes(counted)
         (tmp_path / "journal.sqlite").write_bytes(base)
         log.write_bytes(data)
         with closing(Journal(tmp_path / "journal.sqlite", looking=True)) as journal:
@@ -478,7 +484,14 @@ def test_a_damaged_log_beside_a_journal_is_noticed_and_one_that_was_cut_off_is_r
 
     assert runs(whole) == 8
     assert runs(whole[:-5000]) < 8  # as after a power failure: no later record was on the disk
-    for at in (0, 20, 40, 100, len(whole) // 2, len(whole) - 20000):
+    assert runs(whole, count) == 8
+    for less in (1, 5000, len(whole) // 2, len(whole)):
+        with pytest.raises(PicoError, match=r"its last .* changes are missing") as refused:
+            runs(whole[: len(whole) - less], count)
+        assert "`pico doctor --journal`" in refused.value.diagnostics[0].hint
+        assert "changes are missing" in examine(tmp_path / "journal.sqlite").broken
+    assert runs(whole[:-5000], count[:3] + b"9" + count[4:]) < 8, "a damaged count counts for nothing"
+    for at in (0, 20, 40, 100, len(whole) // 2, len(whole) - 40000):
         with pytest.raises(PicoError, match=r"write-ahead log is damaged.*journal\.sqlite") as refused:
             runs(whole[:at] + bytes([whole[at] ^ 8]) + whole[at + 1 :])
         assert "`pico doctor --journal`" in refused.value.diagnostics[0].hint

@@ -62,7 +62,7 @@ JOURNAL = StateFile(
     BENCH + "journal.sqlite", "record", "every run and operation of the bench, before and after it happened",
     "the edge", "runs that no commit has, what a hand holds on a real bench, and which axes are known",
     "`pico doctor --journal` makes a new one of what is intact and of what commits hold", code="journal",
-    text="SQLite, version 4",
+    text="SQLite, version 5",
 )  # fmt: skip
 OWN_LAB = StateFile(
     BENCH + "lab.json", "record", "the Lab that the bench adopted, with its component types", "`pico bench update`",
@@ -96,6 +96,10 @@ POINTS = StateFile(
 CALLED = StateFile(
     BENCH + "called.json", "process", "the command that was approved last, until it ends",
     "every command that moves the bench", "", "",
+)  # fmt: skip
+CHANGE_COUNT = StateFile(
+    BENCH + "changes", "process", "how many changes the journal has had, to notice one that lost its end", "the edge",
+    "", "", text="text",
 )  # fmt: skip
 RUN_MARK = StateFile(
     BENCH + "run", "process", "the run that has begun and not ended", "the edge", "", "", text="text",
@@ -271,7 +275,7 @@ GIT_MESSAGE = StateFile(
 
 ALL = (
     DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB, MORNINGS, RECIPE_LOG,
-    RECIPE_OUTPUT,
+    RECIPE_OUTPUT, CHANGE_COUNT,
     RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,
     EARLIER, SPLITTING, SPLIT_LOCK, DATA, PAGE, RECORD, RECORD_LOCK, SEALS, ARMED_SEAL, REMOTES, PAGE_LOCK,

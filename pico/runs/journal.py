@@ -40,12 +40,15 @@ from pico.runs.damage import (
     marked_run,
     sums_of_run,
 )
-from pico.runs.journal_tables import HEAD, ROW, SCRIPTS, VERSION
-from pico.runs.write_ahead import lost_transactions
+from pico.runs.storage.change_count import ChangeCount
+from pico.runs.storage.journal_tables import HEAD, ROW, SCRIPTS, VERSION
+from pico.runs.storage.write_ahead import lost_transactions
 from pico.version import upgrade_hint
 
 RecordKind = Literal["intent", "started", "done", "failed", "unknown", "resolved"]
 
+MEMORY = ":memory:"
+"""The path of a journal that is kept nowhere."""
 RECENT = 2000
 """So many records are checked before anything is written, and with them anything moves."""
 SMALL = 1000
@@ -120,21 +123,23 @@ class Journal:
         """Open or make it. `looking`: only to read what is there, also where the disk is full or read-only."""
         self.path = path
         self._clock, self._looking = clock, looking
-        self._sums = "checksum"
+        self._sums, self._counts = "checksum", True
         self._in_commits: dict[str, FromCommit | None] = {}
-        marked = marked_run(path)
+        self._count = ChangeCount(path)
+        marked, least = marked_run(path), self._count.least()
         with self._guarded():
             if is_emptied(path):
                 raise sqlite3.DatabaseError(EMPTY)
             if lost := lost_transactions(path):  # before it is opened: SQLite then drops them
                 why = f"its write-ahead log is damaged, and {lost} transactions lie behind that"
                 raise PicoError(lost_end(path, why))
-            if marked and not path.exists():
-                raise PicoError(lost_end(path, f"the file is gone, and run {marked} has begun"))
+            if (marked or least) and not path.exists():
+                why = f"run {marked} has begun" if marked else f"it was written to {least} times"
+                raise PicoError(lost_end(path, f"the file is gone, and {why}"))
             try:
                 if not looking:
                     path.parent.mkdir(parents=True, exist_ok=True)
-                if not path.exists():
+                if not path.exists() and str(path) != MEMORY:
                     make_database(path, _upgrade(0))
                 self._open(str(path))
             except sqlite3.OperationalError:
@@ -143,6 +148,16 @@ class Journal:
                 self._open(f"{path.absolute().as_uri()}?immutable=1")
             if marked:
                 self._require_run(marked)
+            if self._counts and (missing := least - self._changes()) > 0:
+                self._db.close()
+                raise PicoError(lost_end(path, f"its last {missing} changes are missing"))
+
+    def _changes(self) -> int:
+        """Return how often the journal was written to."""
+        return int(self._db.execute("SELECT changes FROM fence").fetchone()[0])
+
+    def _counted(self, *, durable: bool = True) -> None:
+        self._count.note(self._changes(), durable=durable)
 
     def _require_run(self, run: str) -> None:
         """Raise PicoError if a run is missing that has begun and not ended, and no other run has not ended: its mark
@@ -169,7 +184,7 @@ class Journal:
         self._db.execute("PRAGMA synchronous=FULL")
         self._db.execute("PRAGMA fullfsync=ON")  # macOS; elsewhere it does nothing
         (version,) = self._db.execute("PRAGMA user_version").fetchone()
-        if version == 0:
+        if version == 0 and str(self.path) != MEMORY:
             raise sqlite3.DatabaseError("the file holds no tables")
         if version > VERSION:
             text = f"{self.path} is of a newer PICO (version {version})"
@@ -182,7 +197,8 @@ class Journal:
                     raise
                 with suppress(sqlite3.Error):
                     self._db.execute("ROLLBACK")
-                self._sums = "NULL"  # on a disk that takes nothing, version 3 is read as it is
+                self._counts = False  # on a disk that takes nothing, versions 3 and 4 are read as they are
+                self._sums = "NULL" if version == 3 else self._sums
         if not self._looking:
             self._require_recent()
 
@@ -205,6 +221,7 @@ class Journal:
     def close(self) -> None:
         """Let go of the database."""
         self._db.close()
+        self._count.close()
 
     def fence(self, token: int) -> None:
         """Let nobody with a lesser token write any more; raises PicoError (exit code LOCKED) where this one is late."""
@@ -263,6 +280,7 @@ class Journal:
                     raise PicoError(error("journal-key", f"the journal has no run {run}"))
                 self._db.execute("UPDATE runs SET checksum = ? WHERE run = ?", (sums_of_run(row[:12]), run))
                 self._db.execute("COMMIT")
+                self._counted()
             except BaseException:
                 with suppress(sqlite3.Error):
                     self._db.execute("ROLLBACK")
@@ -474,6 +492,8 @@ class Journal:
             ).rowcount
             if kind == "intent":
                 self._db.execute("PRAGMA synchronous=FULL")
+            if written:
+                self._counted(durable=kind != "intent")
         if not written:
             raise PicoError(_late(token), ExitCode.LOCKED)
 

@@ -6,6 +6,7 @@ import json
 import os
 import shutil
 import sqlite3
+import sys
 import tempfile
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import closing, suppress
@@ -14,6 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from pico.base.database import EMPTY, is_emptied
+from pico.base.state_files import CHANGE_COUNT
 from pico.disk import writing
 from pico.model.operation import operation_from_json
 from pico.model.record import digest
@@ -28,8 +30,9 @@ from pico.runs.damage import (
     sums_of_run,
 )
 from pico.runs.journal import Journal, as_text
-from pico.runs.journal_tables import HEAD, ROW
-from pico.runs.write_ahead import lost_transactions
+from pico.runs.storage.change_count import ChangeCount
+from pico.runs.storage.journal_tables import HEAD, ROW
+from pico.runs.storage.write_ahead import lost_transactions
 
 MOST = 10_000_000
 """Rows that are tried one by one at most if a table can't be read from its beginning to its end."""
@@ -95,7 +98,7 @@ class Salvage:
 def examine(path: Path) -> Examined:
     """Return all that can be read of the journal at `path`; the file and what lies beside it stay untouched. Raises
     PicoError if they can't be copied."""
-    marked = marked_run(path)
+    marked, least = marked_run(path), ChangeCount(path).least()
     if not path.exists() or is_emptied(path):
         return Examined(broken=EMPTY if path.exists() else "the file is gone", missing=marked)
     lost = lost_transactions(path)
@@ -109,10 +112,13 @@ def examine(path: Path) -> Examined:
             with closing(sqlite3.connect(copy)) as db:
                 db.text_factory = lambda data: data.decode("utf-8", "surrogateescape")
                 found = _read(db)
+                missing = least - _changes(db)
         except sqlite3.Error as exc:
             return Examined(broken=str(exc), missing=marked)
     if lost:
         found.broken = f"its write-ahead log is damaged, and {lost} transactions behind that are lost"
+    elif missing > 0:
+        found.broken = found.broken or f"its last {missing} changes are missing"
     open_end = not found.runs or found.runs[-1][5] is None  # then the mark may be what is damaged
     if marked not in {row[1] for row in found.runs} and (found.broken or not open_end or not found.runs):
         found.missing = marked
@@ -253,6 +259,14 @@ def _records_of(rows: Rows, held: FromCommit) -> list[tuple[float, tuple[Any, ..
     return found + [(float(row[0]), row) for row in sound.values()]
 
 
+def _changes(db: sqlite3.Connection) -> int:
+    """Return how often a journal was written to; of one that does not count that, more than ever."""
+    try:
+        return int(db.execute("SELECT changes FROM fence").fetchone()[0])
+    except (sqlite3.Error, TypeError, ValueError):
+        return sys.maxsize
+
+
 def write_journal(made: Salvage, path: Path) -> None:
     """Write a journal of what was salvaged to `path`, where none is; it is on the disk when this returns. Raises
     PicoError."""
@@ -293,5 +307,6 @@ def replace_journal(path: Path, new: Path) -> Path:
         for suffix in ("-wal", "-shm"):  # before the new one takes the place: SQLite would play the old log into it
             if (one := path.with_name(path.name + suffix)).exists():
                 one.rename(aside.with_name(aside.name + suffix))
+        CHANGE_COUNT.path(path.parent).unlink(missing_ok=True)  # of the damaged one
         new.replace(path)
     return aside

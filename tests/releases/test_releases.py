@@ -16,7 +16,7 @@ from commanding import Pico
 
 from pico.bench.bench import Bench
 from pico.runs.journal import Journal
-from pico.runs.journal_tables import VERSION
+from pico.runs.storage.journal_tables import VERSION
 
 
 def enclose(lab: Path) -> None:

@@ -1,0 +1,64 @@
+"""How many changes a journal has had, in a file of its own beside it: a write-ahead log that lost its end is a valid
+one, only shorter, and nothing in the database tells.
+
+The file is written after the change, so it never counts more than the journal had on the disk, or, for what was not
+made durable, had in the memory of this machine since it was started.
+"""
+
+from __future__ import annotations
+
+import os
+import zlib
+from contextlib import suppress
+from functools import cache
+from pathlib import Path
+
+from pico.base.state_files import CHANGE_COUNT, JOURNAL
+
+_BOOT = Path("/proc/sys/kernel/random/boot_id")
+LENGTH = 100
+"""Bytes of the file."""
+
+
+class ChangeCount:
+    """The count beside the journal at `path`; none beside a copy under another name."""
+
+    def __init__(self, path: Path) -> None:
+        self._path = CHANGE_COUNT.path(path.parent) if path.name == JOURNAL.name else None
+        self._durable = 0
+        self._file: int | None = None
+
+    def least(self) -> int:
+        """Return how many changes the journal has at least; 0 if the file is missing or damaged."""
+        with suppress(OSError, ValueError, UnicodeError):
+            if self._path is not None:
+                text, _, checksum = self._path.read_text(encoding="ascii").strip().rpartition(" ")
+                if int(checksum) == zlib.crc32(text.encode()):
+                    durable, written, *boot = text.split(" ")
+                    return int(written) if boot == [_booted()] else int(durable)
+        return 0
+
+    def note(self, changes: int, *, durable: bool) -> None:
+        """Keep how many changes the journal has now; a disk that takes nothing keeps what was there."""
+        if self._path is None:
+            return
+        self._durable = changes if durable else self._durable
+        text = f"{self._durable} {changes} {_booted()}"
+        with suppress(OSError):
+            if self._file is None:
+                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
+            os.pwrite(self._file, f"{text} {zlib.crc32(text.encode())}".ljust(LENGTH).encode(), 0)
+
+    def close(self) -> None:
+        """Let go of the file."""
+        if self._file is not None:
+            os.close(self._file)
+            self._file = None
+
+
+@cache
+def _booted() -> str:
+    """Return what names this start of the machine; `unknown` if the system does not tell."""
+    with suppress(OSError, UnicodeError):
+        return _BOOT.read_text(encoding="ascii").strip()
+    return "unknown"
