@@ -64,8 +64,10 @@ async def _axis(axis: Any) -> str:
 
 
 async def _meter(meter: Any) -> str:
-    power, sigma = await meter.power()
-    return f"{power:.4g} W" + (f" ± {sigma:.2g} W" if sigma is not None else "")
+    found = await meter.power()
+    if found.value is None:
+        return f"unknown: {found.why}"
+    return f"{found.value:.4g} {found.unit}" + (f" ± {found.sigma:.2g} {found.unit}" if found.sigma is not None else "")
 
 
 async def _laser(laser: Any) -> str:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Protocol
 
+from pico.model.readout import Readout
 from pico.model.record import record
 
 if TYPE_CHECKING:
@@ -156,9 +157,17 @@ class DepthCamera(Camera, Protocol):
 class PowerMeter(Instrument, Protocol):
     """A power meter."""
 
-    async def power(self, *, wavelength: float | None = None) -> tuple[float, float | None]:
-        """Return the power [W] and one standard deviation of it, None where unknown; `wavelength` [nm] is set and read
-        back first."""
+    async def power(self, *, wavelength: float | None = None) -> Readout:
+        """Return the power [W], unknown with the reason if the reply is no number; `wavelength` [nm] is set first, and
+        what is read back of it is in the `settings` of the readout, absent if the meter can't be told."""
+        ...
+
+    async def wavelength(self) -> Readout:
+        """Return the wavelength [nm] for which the reading is corrected."""
+        ...
+
+    async def set_wavelength(self, wavelength: float) -> Readout:
+        """Set the wavelength [nm] for which the reading is corrected, and return what is read back."""
         ...
 
 

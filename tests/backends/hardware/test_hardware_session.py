@@ -31,7 +31,7 @@ from pico.model.primitive import Primitive
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setup import Setup
-from pico.model.wiring import SafetyEntry, Wired
+from pico.model.wiring import SafetyEntry, Wired, conversion
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Blocked, MovePath, Segment, Waypoint
@@ -205,7 +205,7 @@ def session(
     shutter = bench.shutter = Shutter()  # type: ignore[attr-defined]
     instruments.tunables["laser.shutter"] = Shut(shutter)  # type: ignore[arg-type]
     if axis is not None:
-        instruments.tunables["p1.angle"] = Motorized(axis, Wired(property="angle"), "deg")  # type: ignore[arg-type]
+        instruments.tunables["p1.angle"] = Motorized(axis, conversion(Wired(property="angle"), "deg", "deg"))  # type: ignore[arg-type]
 
     async def none(*_: Any) -> Any:
         return None

@@ -1,0 +1,63 @@
+"""What an instrument's reply says: a number with its unit, or the reason why there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import field
+from types import MappingProxyType
+from typing import Literal
+
+from pico.model.quantities import Value
+from pico.model.record import record
+
+ReasonCode = Literal[
+    "over-range", "under-range", "no-number", "garbled", "instrument-error", "saturated", "stale", "wavelength",
+    "out-of-limits", "not-homed", "no-answer", "not-computed",
+]  # fmt: skip
+"""Why a value is unknown, or not assured: the closed list that `REASONS` explains."""
+REASONS: Mapping[ReasonCode, str] = MappingProxyType(
+    {
+        "over-range": "the instrument reports that its input is above its range",
+        "under-range": "the instrument reports that its input is below its range",
+        "no-number": "the instrument reports that it has no number (NaN)",
+        "garbled": "the reply does not have the form that the instrument's manual gives",
+        "instrument-error": "the error queue of the instrument was not empty after the reading",
+        "saturated": "the converter of the instrument was at full scale",
+        "stale": "the instrument repeated an earlier frame or answer",
+        "wavelength": "the instrument is not set to the wavelength of the light",
+        "out-of-limits": "the number lies outside the `limits` of the device",
+        "not-homed": "the axis has no zero: it must be homed first",
+        "no-answer": "the instrument did not answer in time, or its link was lost",
+        "not-computed": "the kernels find no such number in what was measured",
+    }
+)
+"""What each reason code means."""
+
+
+@record
+class Readout:
+    """One number as an instrument gave it. Exactly one of `value` and `unknown` is None."""
+
+    unit: str
+    """The unit of `value`, as the driver declares it."""
+    value: Value | None = None
+    """The number; a driver of named positions gives a word, one of a switch a truth value."""
+    sigma: float | None = None
+    """One standard deviation of `value`, None if the instrument does not give it."""
+    unknown: ReasonCode | None = None
+    """Why there is no value."""
+    why: str = ""
+    """The same in words, with the numbers."""
+    raw: str = ""
+    """The reply as it came over the wire."""
+    settings: Mapping[str, Value] = field(default_factory=dict)
+    """What was read back with it and the number depends on, such as the `wavelength` [nm]."""
+
+    def __post_init__(self) -> None:
+        if (self.value is None) == (self.unknown is None):
+            raise ValueError("a readout has a value, or a reason why it has none")
+
+
+def unknown(unit: str, code: ReasonCode, raw: str = "", why: str = "") -> Readout:
+    """Return a readout without a value; `why`: in words, by default what the code means."""
+    return Readout(unit=unit, unknown=code, why=why or REASONS[code], raw=raw)
