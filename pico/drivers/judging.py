@@ -155,6 +155,20 @@ def picture(said: Mapping[str, Any], data: bytes) -> np.ndarray:
     return np.frombuffer(data, kind).reshape(sizes)
 
 
+def counted(name: str, number: object, last: int) -> int:
+    """Return the number of a picture; `last` (that of the one before it, -1 for none) if its camera does not count.
+    Raises PicoError, for camera `name`, for a picture that was sent before, and for a number that is none."""
+    if number is None:
+        return last
+    if type(number) is not int or number < 0:
+        text = f"{name} numbers a picture by {_shown(number)}"
+        raise PicoError(error("device-reply", text, hint="a `number` counts on from 0", address=name))
+    if number <= last:
+        text = f"{name} sent an earlier picture again: number {number} after {last}"
+        raise PicoError(error("stale", text, hint="restart the camera, or the program that serves it", address=name))
+    return number
+
+
 def _shown(value: object) -> str:
     return "missing" if value is None else repr(value)[:40]
 

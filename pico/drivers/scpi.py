@@ -214,27 +214,27 @@ METER_SETTINGS = {
     "error_queue": Setting(kind=bool, default=True, about="whether it knows `SYST:ERR?`, asked after each reading"),
 }
 METER = Driver(
-    kind="power meter", made=PowerMeter, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",), settings=METER_SETTINGS,
-    wire=wire_of, check=complaints,
+    kind="power meter", made=PowerMeter, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",),
+    settings=METER_SETTINGS, wire=wire_of, check=complaints,
     properties={"power": "W", "wavelength": "nm"}, needs=_NEEDS, maturity="emulated", emulator="scpi.meter",
 )  # fmt: skip
 LASER = Driver(
-    kind="laser", made=Laser, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",), settings=SETTINGS,
-    wire=wire_of, check=complaints,
+    kind="laser", made=Laser, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints,
     properties={"emission": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.laser",
 )  # fmt: skip
 SAFETY = Driver(
-    kind="safety input", made=SafetyInput, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",), settings=SETTINGS,
-    wire=wire_of, check=complaints, one_identity=True,
+    kind="safety input", made=SafetyInput, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 SHUTTER = Driver(
-    kind="shutter", made=Shutter, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",), settings=SETTINGS,
-    wire=wire_of, check=complaints, one_identity=True,
+    kind="shutter", made=Shutter, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"open": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 LAMP = Driver(
-    kind="lamp", made=Lamp, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",), settings=SETTINGS,
-    wire=wire_of, check=complaints, one_identity=True,
+    kind="lamp", made=Lamp, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"on": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip

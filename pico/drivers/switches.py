@@ -130,7 +130,8 @@ def _driver(kind: Kind, made: Any, prop: str) -> Driver:
         opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),
         closed=lambda link: link.close(),
         address={"host": "the box's name or number", "port": "its TCP port", "name": "what it calls this one"},
-        bus=("host", "port"), properties={prop: ""}, maturity="emulated", emulator="switches", link="switches",
+        bus=("host", "port"), properties={prop: ""}, settings={}, one_identity=True,
+        maturity="emulated", emulator="switches", link="switches",
     )  # fmt: skip
 
 

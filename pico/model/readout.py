@@ -57,6 +57,11 @@ class Readout:
         if (self.value is None) == (self.unknown is None):
             raise ValueError("a readout has a value, or a reason why it has none")
 
+    @property
+    def number(self) -> float | None:
+        """The value as a number; None if it is unknown."""
+        return None if self.value is None or isinstance(self.value, str) else float(self.value)
+
 
 def unknown(unit: str, code: ReasonCode, raw: str = "", why: str = "") -> Readout:
     """Return a readout without a value; `why`: in words, by default what the code means."""

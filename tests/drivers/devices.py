@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pico.diagnostics import PicoError, error
 from pico.model.wiring import DeviceEntry
 
 
@@ -34,7 +35,10 @@ class Case:
 
 
 async def _power(meter: Any) -> float:
-    return float((await meter.power())[0])
+    found = await meter.power()
+    if found.unknown:
+        raise PicoError(error(found.unknown, found.why, address="it"))
+    return float(found.value)
 
 
 async def _safe(safety: Any) -> bool | None:
