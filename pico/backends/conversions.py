@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from pico.model.declaration import Declaration
+from pico.model.instruments.conversion import Conversion, conversion
+from pico.model.instruments.declaration import Declaration
 from pico.model.setup import Setup
-from pico.model.wiring import Conversion, DeviceEntry, Wired, conversion
+from pico.model.wiring import DeviceEntry, Wired
 
 USUAL = {"shutter": "shutter", "laser": "emission", "lamp": "illumination", "power meter": "power"}
 """The tunable or measurable that a kind of instrument is where its `map` says nothing."""

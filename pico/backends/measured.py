@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.conditions import conditions
+from pico.base.reasons import ReasonCode
 from pico.content.arrays import keep_array
 from pico.content.store import store_of
 from pico.model.catalog import Measurable
 from pico.model.measurement import PEEKED, Condition, Measurement
 from pico.model.observation import Observation
 from pico.model.quantities import Value
-from pico.model.readout import ReasonCode
 from pico.model.setup import Setup
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from typing import Any, Literal
 
 from pico.drivers.bus import Bus
 from pico.drivers.protocols import Instrument, Maturity
-from pico.model.declaration import Declaration
+from pico.model.instruments.declaration import Declaration
 from pico.model.wiring import DeviceEntry
 
 Kind = Literal[

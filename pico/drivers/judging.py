@@ -11,9 +11,10 @@ import re
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pico.base.reasons import REASONS, ReasonCode
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import Identity
-from pico.model.readout import REASONS, Readout, ReasonCode, unknown
+from pico.model.instruments.readout import Readout, unknown
 
 if TYPE_CHECKING:
     import numpy as np

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from pico.model.readout import Readout
+from pico.model.instruments.readout import Readout
 from pico.model.record import record
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
 from pico.drivers.scpi import METER_SETTINGS, corrected, metered, require_told
 from pico.drivers.visa import ADDRESS, backend_of, complaints, queue_of, resource_options, wire_of, within_of
-from pico.model.readout import Readout
+from pico.model.instruments.readout import Readout
 from pico.model.wiring import DeviceEntry
 
 

@@ -12,7 +12,7 @@ from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
 from pico.drivers.visa import require_read_back
-from pico.model.declaration import Setting
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
 if TYPE_CHECKING:

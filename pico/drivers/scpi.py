@@ -14,9 +14,9 @@ from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity, SafetyState
 from pico.drivers.visa import ADDRESS, SETTINGS, Visa, complaints, require_read_back, wire_of, within_of
-from pico.model.declaration import Setting
+from pico.model.instruments.declaration import Setting
+from pico.model.instruments.readout import Readout, unknown
 from pico.model.quantities import Value
-from pico.model.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 
 _WAVELENGTH = "SENS:CORR:WAV?"

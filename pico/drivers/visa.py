@@ -10,7 +10,7 @@ from pico.diagnostics import PicoError, error
 from pico.drivers import judging
 from pico.drivers.bus import LONGEST
 from pico.drivers.protocols import Identity
-from pico.model.declaration import Complaint, Setting
+from pico.model.instruments.declaration import Complaint, Setting
 from pico.model.wiring import DeviceEntry
 
 REPLY = 1.0

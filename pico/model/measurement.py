@@ -8,8 +8,8 @@ from types import MappingProxyType
 from typing import Any, Literal, get_args
 
 from pico.base.formats import Format
+from pico.base.reasons import ReasonCode
 from pico.model.quantities import Value
-from pico.model.readout import ReasonCode
 from pico.model.record import record
 from pico.model.shown.html import number, table
 

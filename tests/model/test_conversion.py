@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from pico.model.wiring import Wired, conversion
+from pico.model.instruments.conversion import conversion
+from pico.model.wiring import Wired
 
 
 def test_an_identity_map_changes_no_physical_quantity() -> None:

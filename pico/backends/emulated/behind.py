@@ -11,9 +11,10 @@ from pico.backends.conversions import conversion_of, mapped
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
-from pico.model.declaration import Declaration
+from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.declaration import Declaration
 from pico.model.quantities import Value, convert
-from pico.model.wiring import Conversion, DeviceEntry
+from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
 
 if TYPE_CHECKING:

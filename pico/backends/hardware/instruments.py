@@ -13,9 +13,10 @@ from pico.backends.hardware.tunables import Driven, Emitting, Exposed, Lit, Moto
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, PowerMeter, SafetyInput
-from pico.model.declaration import Declaration
+from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.declaration import Declaration
 from pico.model.setup import Setup
-from pico.model.wiring import Conversion, DeviceEntry, SafetyEntry
+from pico.model.wiring import DeviceEntry, SafetyEntry
 
 if TYPE_CHECKING:
     from pico.drivers.registry import Buses

@@ -17,11 +17,11 @@ from pico.diagnostics import PicoError, error
 from pico.kernels.frame import full_pixels
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed
+from pico.model.instruments.readout import unknown
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.quantities import Value
-from pico.model.readout import unknown
 from pico.model.setup import Setup
 from pico.optics.sensing.sensor import Sensor
 

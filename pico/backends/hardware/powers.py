@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from pico.backends.measured import Reading
 from pico.drivers.judging import same_wavelength
 from pico.model.catalog import Tunable
+from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.readout import Readout, unknown
 from pico.model.pose import Pose
 from pico.model.quantities import Value
-from pico.model.readout import Readout, unknown
 from pico.model.setup import Setup
-from pico.model.wiring import Conversion
 from pico.optics.axis import beams
 
 

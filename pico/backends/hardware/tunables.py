@@ -8,9 +8,9 @@ from pico.backends.hardware.settings import Settings
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import Axis, Camera, Instrument, Lamp, Laser, PowerMeter, Shutter
 from pico.model.catalog import Tunable
+from pico.model.instruments.conversion import Conversion
 from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
-from pico.model.wiring import Conversion
 
 UNKNOWN = ObservedValue(status="unknown")
 _NO_AXIS = PicoError(error("no-axis", "it has no axis that could be homed"))

@@ -16,7 +16,7 @@ from pico.drivers.xarm.arm import DRIVER as ARM
 from pico.drivers.xarm.faults import gripper_told
 from pico.drivers.xarm.library import imported
 from pico.drivers.xarm.link import Link, identity
-from pico.model.declaration import Setting
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
 PULSES = 850

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.model.declaration import Setting
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 from pico.motion.xarm7 import LIMITS
 

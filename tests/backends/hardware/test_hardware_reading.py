@@ -22,10 +22,11 @@ from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.drivers.registry import Buses, driver
+from pico.model.instruments.conversion import conversion
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.model.wiring import SafetyEntry, Wired, conversion
+from pico.model.wiring import SafetyEntry, Wired
 from pico.twin.arms import TwinArm
 
 

@@ -24,6 +24,7 @@ from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model import primitive
+from pico.model.instruments.conversion import conversion
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
@@ -31,7 +32,7 @@ from pico.model.primitive import Primitive
 from pico.model.quantities import Value
 from pico.model.record import as_json
 from pico.model.setup import Setup
-from pico.model.wiring import SafetyEntry, Wired, conversion
+from pico.model.wiring import SafetyEntry, Wired
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Blocked, MovePath, Segment, Waypoint

@@ -24,9 +24,10 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.drivers.protocols import SafetyState
 from pico.model.catalog import Axis as AxisOf
 from pico.model.catalog import Tunable
+from pico.model.instruments.conversion import conversion
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.setup import Setup
-from pico.model.wiring import SafetyEntry, Wired, conversion
+from pico.model.wiring import SafetyEntry, Wired
 
 SETUP = bench()
 KINDS = ("door", "curtain", "emergency_stop", "key", "interlock", "shutter", "presence")

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from pico.base.reasons import REASONS
 from pico.diagnostics import PicoError
 from pico.drivers import judging
-from pico.model.readout import REASONS
 
 
 @pytest.mark.parametrize(("reply", "value"), [
