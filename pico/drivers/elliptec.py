@@ -11,7 +11,7 @@ import asyncio
 import math
 import re
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
@@ -117,6 +117,10 @@ class _Axis:
             return Readout(unit=self.unit, value=self._position(packet), raw=packet.raw)
 
         return await self._line.ask("tell where it is", read)
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {self.prop: await self.readout()}
 
     async def move_to(self, position: float) -> float:
         """Drive to a position, in its unit."""

@@ -101,6 +101,14 @@ def switched(raw: str) -> bool:
     return said in _ON
 
 
+def switch(raw: str, unit: str = "") -> Readout:
+    """Return a truth value as a readout; unknown for a reply that is none."""
+    try:
+        return Readout(unit=unit, value=switched(raw), raw=raw)
+    except ValueError as exc:
+        return unknown(unit, "garbled", raw, str(exc))
+
+
 def failure(raw: str) -> str:
     """Return the entry that a reply to `SYST:ERR?` holds, '' for an empty queue (error 0); raises ValueError for
     what is no such reply."""

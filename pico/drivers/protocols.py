@@ -7,7 +7,8 @@ did not come in time is told as such, and never taken for one. After `stop` noth
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Protocol
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
 from pico.model.instruments.readout import Readout
 from pico.model.record import record
@@ -73,6 +74,15 @@ class Instrument(Protocol):
 
     async def close(self) -> None:
         """Let go of the link; safe to call twice."""
+        ...
+
+
+@runtime_checkable
+class Readable(Protocol):
+    """An instrument that gives its properties with the replies that say them."""
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of each of its properties now, by their names; moves nothing. Raises PicoError."""
         ...
 
 

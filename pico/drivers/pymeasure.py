@@ -4,6 +4,7 @@ clips a wavelength without a word, and takes any text for a reading."""
 from __future__ import annotations
 
 import warnings
+from collections.abc import Mapping
 from typing import Any
 
 from pico.drivers import judging
@@ -79,6 +80,10 @@ class PM100:
         """Set the wavelength [nm] for which the reading is corrected, and return what is read back."""
         require_told(self.name, self._entry, wavelength)
         return await self._line.ask("set its wavelength", lambda link: corrected(link, self._entry, wavelength))
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {"power": await self.power(), "wavelength": await self.wavelength()}
 
     async def stop(self) -> None:
         """Nothing moves here."""

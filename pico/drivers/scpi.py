@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Protocol
 
@@ -71,6 +72,10 @@ class PowerMeter(Spoken):
             "set its wavelength", lambda visa: corrected(visa, self._entry, wavelength), within=self._within
         )
 
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {"power": await self.power(), "wavelength": await self.wavelength()}
+
 
 def require_told(name: str, entry: DeviceEntry, wavelength: float | None) -> None:
     """Raise PicoError for a wavelength [nm] beyond the limits of a meter."""
@@ -134,6 +139,11 @@ class Laser(Spoken):
         return await self._line.ask(
             "tell whether it emits", lambda visa: judging.switched(visa.ask("OUTP?")), within=self._within
         )
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        ask = self._line.ask
+        return {"emission": await ask("tell whether it emits", lambda visa: judging.switch(visa.ask("OUTP?")))}
 
     async def stop(self) -> None:
         """Switch it off, before all else."""

@@ -6,6 +6,7 @@ from __future__ import annotations
 import asyncio
 import re
 import time
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
@@ -91,6 +92,10 @@ class Stage:
             return Readout(unit=self._unit, value=self._position(reply), raw=raw)
 
         return await self._line.ask("tell where it is", read)
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {"position": await self.readout()}
 
     async def move_to(self, position: float) -> float:
         """Drive there, in the unit of its counts. Raises PicoError for one that was not homed: its counts begin

@@ -162,7 +162,8 @@ class MountBus:
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> SerialServed:
     mounts = {
         str(entry.address.get("bus", "0")): Mount(
-            str(entry.identity.get("serial", "00000000")), behind,
+            str(entry.identity.get("serial", "00000000")),
+            behind,
             KINDS.get(entry.identity.get("model", ""), KINDS[USUAL.get(entry.driver, "ELL14")]),
         )
         for entry, behind in devices.values()
