@@ -50,7 +50,7 @@ class FrameLink:
         said = json.loads(self._file.readline(65536) or "null")
         if not isinstance(said, dict):
             raise ValueError("it hung up")
-        if said.get("id") != self._id or "error" in said:
+        if type(said.get("id")) is not int or said["id"] != self._id or "error" in said:
             raise ValueError(said.get("error", f"it answers request {said.get('id')}, and {self._id} was asked"))
         size = said.get("bytes", 0)
         if type(size) is not int or not 0 <= size <= _LARGEST:
