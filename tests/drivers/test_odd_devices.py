@@ -195,7 +195,7 @@ def test_a_serial_line_has_its_speed_and_line_ends_from_the_lab() -> None:
         "baud_rate": 115200,
         "read_termination": "\r",
         "write_termination": "\r",
-        "parity": "even",
+        "stop_bits": 2,
         "timeout": 2,
     }
     with scripted(device, serial=True) as address:
