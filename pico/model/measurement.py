@@ -42,9 +42,10 @@ class Measurement:
     `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than
     goes into a line. `unit`; where numbers by name have several, in their order. `unknown`: why there is no value,
     though it was measured, and `reason`: the same as a code. `sigma`: one standard deviation, as the value; `noise`:
-    the part of it that differs between readings of the same instrument, which does not hold what they have in common (the calibration of a
-    meter); None: all of it. `settings`: what it depends on, such as exposure, gain and background. `time` on the
-    bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of what a device gave.
+    the part of it that differs between readings of the same instrument, which does not hold what they have in common
+    (the calibration of a meter); None: all of it. `settings`: what it depends on, such as exposure, gain and
+    background. `time` on the bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of
+    what a device gave.
     `assured`: what was seen to hold; `not_assured`: what was not, and why.
     """
 
