@@ -21,6 +21,8 @@ PULSES = 143360
 """Of one turn of an ELL14."""
 SPEED = 430.0
 """Of an ELL14 [deg/s]."""
+SLOWEST = 80.0
+"""Of a linear stage at the lowest velocity that can be set, 45 % of 180 mm/s [mm/s]."""
 MECHANICAL_TIMEOUT, UNKNOWN_COMMAND, OUT_OF_RANGE, BUSY = 2, 3, 4, 9
 _COMMAND = re.compile(rb"([0-9A-F])(in|gs|gp|st|gj|go|ho[01]|(?:ma|mr|sj|so)[0-9A-Fa-f]{8})")
 
@@ -40,8 +42,8 @@ class Kind:
 
 KINDS = {
     "ELL14": Kind(0x0E, 360, PULSES, 360.0, SPEED, "angle"),
-    "ELL17": Kind(0x11, 28, 1024, 1.0, 180.0, "position"),
-    "ELL20": Kind(0x14, 60, 1024, 1.0, 180.0, "position"),
+    "ELL17": Kind(0x11, 28, 1024, 1.0, SLOWEST, "position"),
+    "ELL20": Kind(0x14, 60, 1024, 1.0, SLOWEST, "position"),
 }
 USUAL = {"elliptec.rotator": "ELL14", "elliptec.stage": "ELL17"}
 """The model that stands in for the devices of a driver."""

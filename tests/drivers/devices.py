@@ -69,9 +69,9 @@ CASES = {
         stuck=80.0, other=30.0),
     "elliptec.stage": Case(
         DeviceEntry(driver="elliptec.stage", emulator="elliptec", address={"port": "", "bus": "3"},
-                    identity={"serial": "11700042"}, limits={"position": (0, 25)}),
+                    identity={"serial": "11700042", "model": "ELL20"}, limits={"position": (0, 58)}),
         {"position": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
-        moves=lambda axis: axis.move_to(20.0), moved=("position", 20.0), beyond=lambda axis: axis.move_to(25.5),
+        moves=lambda axis: axis.move_to(55.0), moved=("position", 55.0), beyond=lambda axis: axis.move_to(58.5),
         stuck=10.0, other=5.0),
     "zaber.stage": Case(
         DeviceEntry(driver="zaber.stage", emulator="zaber", address={"host": "", "port": "0", "device": 1},
