@@ -82,11 +82,11 @@ def devices(kind: str, at: Mapping[str, Mapping[str, Any]] | None = None) -> str
     """Return the manifest of the devices, with the addresses `at` if they are known."""
     place = {"host": "127.0.0.1", "port": 1}
     plate = {"driver": "zaber.stage", "map": {"angle": {"property": "position"}},
-             "settings": {"counts_per_unit": 100, "emulated_speed": 2000}}  # fmt: skip
+             "settings": {"counts_per_unit": 100, "unit": "deg", "emulated_speed": 2000}}  # fmt: skip
     found: dict[str, dict[str, Any]] = {
         "top": {"driver": "frames.camera", "address": {**place, "port": 2}},
-        "h1_mount": {**plate, "of": "h1", "address": {**place, "device": 1}},
-        "h2_mount": {**plate, "of": "h2", "address": {**place, "device": 2}},
+        "h1_mount": {**plate, "of": "h1", "address": {**place, "device": 1}, "identity": {"serial": "51"}},
+        "h2_mount": {**plate, "of": "h2", "address": {**place, "device": 2}, "identity": {"serial": "52"}},
         "gate_box": {"driver": "switches.shutter", "of": "gate", "address": {**place, "port": 3, "name": "gate"}},
         "meter_head": {"driver": "scpi.meter", "of": "meter", "address": {"visa": "TCPIP0::127.0.0.1::4::SOCKET"}},
     }

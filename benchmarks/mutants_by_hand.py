@@ -95,7 +95,7 @@ _SINGLE: tuple[ByHand, ...] = (
     ByHand("an object that cannot be read counts as damaged",
         'if exc.diagnostics[0].code != "data-damaged":\n                raise', 'if exc.diagnostics[0].code != "data-damaged":\n                return False', "test_intact.py"),
     ByHand("a mount that stops short of its goal has reached it",
-        "if abs(at - position) > REACHED:", "if at - position > REACHED:", "test_stopping_short.py"),
+        "if abs(at - position) > self.reached:", "if at - position > self.reached:", "test_stopping_short.py"),
     ByHand("a stage that stops short of its goal has reached it",
         "if abs(at - position) * abs(self._counts) > _REACHED:", "if (at - position) * abs(self._counts) > _REACHED:", "test_stopping_short.py"),
     ByHand("a power that was not read back counts as that of the smallest laser",

@@ -60,7 +60,7 @@ STAGES = """\
     driver: zaber.stage
     of: ly_200
     address: {{host: 192.0.2.30, port: 55550, device: {number}}}
-    identity: {{serial: "12345"}}
+    identity: {{serial: "5300{number}"}}
     settings: {{counts_per_unit: 20997.375, emulated_speed: 60}}
     map: {{stage_{axis}: {{property: position, offset: -6}}}}
 """

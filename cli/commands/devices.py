@@ -12,6 +12,7 @@ from pico.diagnostics import ExitCode
 from ..arguments import group
 from ..session import Session
 from ..terminal.waiting import waiting
+from ..views import device_properties as properties
 from ..views import devices as view
 
 HEADING = "The simulator, and the rest"
@@ -19,7 +20,13 @@ ORDER = 230
 
 app = group(
     help="List the instruments of the bench, and ask whether they answer.",
-    examples=("pico devices", "pico devices check", "pico devices check p1 --emulate", "pico devices identify p1"),
+    examples=(
+        "pico devices",
+        "pico devices check",
+        "pico devices check p1 --emulate",
+        "pico devices identify p1",
+        "pico devices read meter",
+    ),
     alone=True,
 )
 
@@ -68,6 +75,31 @@ def identify(context: typer.Context, devices: Names = None) -> int:
       pico devices identify p1
     """
     return _asked(context, devices, whoever=True)
+
+
+@app.command()
+def read(context: typer.Context, devices: Names = None) -> int:
+    """Show what devices reply for each of their properties, the unit, and the value in the lab's unit. Nothing moves.
+
+    A reply that is no number is shown as unknown, with the reason. Exit code 1 where a device does not answer.
+
+    Examples:
+      pico devices read meter
+      pico devices read p1_mount --emulate --json
+    """
+    from pico.backends.instruments import asked, bench_of, named
+    from pico.backends.properties import properties_of
+    from pico.manifest.load import find_lab
+
+    session = Session.of(context)
+    setup = bench_of(session.folder)
+    with waiting("Asking the devices"):
+        emulate = session.place(find_lab(session.folder)).name == EMULATED
+        rows = asked(named(setup, devices or ()), emulate=emulate, properties=True)
+    session.show(properties, properties_of(setup, rows))
+    wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
+    session.tell(wrong)
+    return ExitCode.ERROR if wrong else ExitCode.DONE
 
 
 def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) -> int:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from pico.kernels.measured import in_order
@@ -12,6 +12,9 @@ from pico.model.measurement import Measurement
 from .style import number, paint
 
 _POWERS = (("W", 1e-3), ("mW", 1.0), ("uW", 1e3), ("nW", 1e6), ("pW", 1e9))
+_SMALL = ("V", "A")
+"""Units of which small numbers are shown with a prefix."""
+_PREFIXES = (("", 1.0), ("m", 1e3), ("u", 1e6), ("n", 1e9), ("p", 1e12))
 _MILLIWATTS = {unit: 1 / scale for unit, scale in _POWERS}
 
 
@@ -47,6 +50,8 @@ def value(found: Any, unit: str = "", sigma: Any = None) -> str:
         return str(found).lower()
     if isinstance(found, int | float) and unit in _MILLIWATTS:
         return power(found * _MILLIWATTS[unit], None if sigma is None else float(sigma) * _MILLIWATTS[unit])
+    if isinstance(found, int | float) and unit in _SMALL and 0 < max(abs(found), sigma or 0.0) < 0.1:
+        return _scaled(found, sigma, [(f"{prefix}{unit}", scale) for prefix, scale in _PREFIXES])
     if isinstance(found, int | float) and isinstance(sigma, int | float) and sigma > 0:
         digits = max(0, 1 - math.floor(math.log10(sigma)))
         said = f"{found:.{digits}f}"
@@ -59,8 +64,13 @@ def value(found: Any, unit: str = "", sigma: Any = None) -> str:
 def power(found: float, sigma: float | None = None) -> str:
     """Return a power [mW], with one standard deviation, in the unit in which it reads best: `1.205 mW ± 0.012 mW`,
     `0.5 nW ± 1.0 nW`."""
+    return _scaled(found, sigma, _POWERS)
+
+
+def _scaled(found: float, sigma: float | None, units: Sequence[tuple[str, float]]) -> str:
+    """Return a number in the unit in which it reads best; `units`: each with its factor, the largest unit first."""
     size = max(abs(found), sigma or 0.0)
-    unit, scale = next(((u, s) for u, s in _POWERS if size * s >= 0.1), _POWERS[-1])
+    unit, scale = next(((u, s) for u, s in units if size * s >= 0.1), units[-1])
     if not sigma:
         return f"{found * scale:.3g} {unit}"
     digits = max(0, 1 - math.floor(math.log10(sigma * scale)))

@@ -15,6 +15,7 @@ from pico.emulators.behind import Alone
 from pico.emulators.registry import EmulatedBench
 from pico.manifest.load import find_lab, load_folder
 from pico.model.record import record
+from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
 
 _HINT = "add a file with `kind: Devices` and `devices:`; docs/how-to/hardware.md has one"
@@ -38,7 +39,18 @@ class InstrumentRow:
 def instruments(folder: Path, names: Sequence[str] = ()) -> dict[str, DeviceEntry]:
     """Return the devices of the lab that `folder` lies in, all or those of these names; raises PicoError for what is
     wrong with its manifests, where it has none, and for a name that there is not."""
+    return named(bench_of(folder), names)
+
+
+def bench_of(folder: Path) -> Setup:
+    """Return the bench of the lab that `folder` lies in; raises PicoError for what is wrong with its manifests."""
     setup, _ = load_folder(find_lab(folder)).require()
+    return setup
+
+
+def named(setup: Setup, names: Sequence[str] = ()) -> dict[str, DeviceEntry]:
+    """Return the devices of a bench, all or those of these names; raises PicoError for a name that there is not, and
+    for a bench without devices."""
     known = setup.wiring.devices if setup.wiring else {}
     if not known:
         raise PicoError(error("no-devices", f"the lab {setup.lab.name} has no devices", hint=_HINT))
@@ -66,20 +78,22 @@ def _row(name: str, entry: DeviceEntry, found: Driver, answer: Answer | None) ->
     )  # fmt: skip
 
 
-def asked(entries: dict[str, DeviceEntry], *, emulate: bool = False, whoever: bool = False) -> list[InstrumentRow]:
+def asked(
+    entries: dict[str, DeviceEntry], *, emulate: bool = False, whoever: bool = False, properties: bool = False
+) -> list[InstrumentRow]:
     """Return a row a device with what it answers, or, with `emulate`, what its emulator does, behind which there is
-    nothing and it is dark; `whoever`: also where another one answers than the lab says. Raises PicoError for one
-    without emulator."""
+    nothing and it is dark; `whoever`: also where another one answers than the lab says; `properties`: with what it
+    reads of each. Raises PicoError for one without emulator."""
     wanted = anybody(entries) if whoever else entries
     if not emulate:
-        return listed(entries, asyncio.run(checked(wanted)))
+        return listed(entries, asyncio.run(checked(wanted, properties=properties)))
     import numpy as np
 
     dark = np.zeros((480, 640), np.uint8)
     bench = EmulatedBench(emulated(entries), lambda name, entry: Alone({"frame": dark}))
     try:
         there = bench.entries
-        return listed(there, asyncio.run(checked(anybody(there) if whoever else there)))
+        return listed(there, asyncio.run(checked(anybody(there) if whoever else there, properties=properties)))
     finally:
         bench.close()
 

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.backends.conditions import conditions
+from pico.base.reasons import ReasonCode
 from pico.content.arrays import keep_array
 from pico.content.store import store_of
 from pico.model.catalog import Measurable
@@ -24,7 +25,8 @@ if TYPE_CHECKING:
 class Reading:
     """What was read: see `pico.model.measurement.Measurement`. `array`: what is too large for a line. `saturated`: how
     much of it was, in words, empty for nothing; None where that means nothing. `unit`: where the
-    measurable says none. `unknown`: why there is no value."""
+    measurable says none. `unknown`: why there is no value; `reason`: the same as a code. `conditions`: what else
+    is assured of it, each with why it is not; '' where it is."""
 
     value: Value | Mapping[str, Value] | None
     array: NDArray[Any] | None = None
@@ -36,6 +38,8 @@ class Reading:
     saturated: str | None = None
     unit: str = ""
     unknown: str = ""
+    reason: ReasonCode | None = None
+    conditions: Mapping[Condition, str] = field(default_factory=dict)
 
 
 def measurement(
@@ -50,6 +54,7 @@ def measurement(
     said: dict[Condition, str] = {**conditions(setup, seen, component, known, busy or ())}
     if reading.saturated is not None:
         said["not saturated"] = reading.saturated
+    said |= reading.conditions
     if busy is None:
         said = dict.fromkeys(said, PEEKED)
     own = {n: v for n, v in seen.known_values.get(component, {}).items() if n != name}
@@ -62,6 +67,7 @@ def measurement(
         sigma=reading.sigma,
         noise=reading.noise,
         unknown=reading.unknown or None,
+        reason=_reason(reading),
         settings={**own, **reading.settings},
         time=seen.time,
         at=at,
@@ -70,3 +76,10 @@ def measurement(
         assured=tuple(condition for condition, why in said.items() if not why),
         not_assured={condition: why for condition, why in said.items() if why},
     )
+
+
+def _reason(reading: Reading) -> ReasonCode | None:
+    """Return the code of why there is no value; None where there is one."""
+    if not reading.unknown:
+        return None
+    return reading.reason or ("saturated" if reading.saturated else "not-computed")

@@ -135,6 +135,7 @@ CAMERA = Driver(
         "serial": "its serial number", "images": "a folder of pictures, which an emulated one shows",
         "asks": "a port at which it is asked to put them there", "width": "of them", "height": "of them",
     },
-    bus=("serial",), properties={"exposure": "ms", "gain": "dB", "frame": "count"},
+    bus=("serial",), settings={}, more_settings="any node of the camera by its name",
+    properties={"exposure": "ms", "gain": "dB", "frame": "count"},
     needs=("pypylon.pylon", "basler"), maturity="emulated", emulator="basler",
 )  # fmt: skip

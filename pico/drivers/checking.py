@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import replace
+from dataclasses import field, replace
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError
 from pico.drivers.driver import Kind
-from pico.drivers.protocols import Identity, Instrument
+from pico.drivers.protocols import Identity, Instrument, Readable
 from pico.drivers.registry import Buses, driver
+from pico.model.instruments.readout import Readout
 from pico.model.record import record
 from pico.model.wiring import DeviceEntry
 
@@ -18,18 +19,20 @@ from pico.model.wiring import DeviceEntry
 @record
 class Answer:
     """What a device answered: who it is, and what it reads in words; None and '' where it did not, for the reason in
-    `diagnostics`."""
+    `diagnostics`. `readouts`: what it reads of each property, with the replies, where that was asked."""
 
     identity: Identity | None = None
     reads: str = ""
+    readouts: Mapping[str, Readout] = field(default_factory=dict)
     diagnostics: tuple[Diagnostic, ...] = ()
 
 
-async def checked(entries: Mapping[str, DeviceEntry]) -> dict[str, Answer]:
-    """Return the answers of devices, asked all at once; never raises PicoError for what one of them does."""
+async def checked(entries: Mapping[str, DeviceEntry], *, properties: bool = False) -> dict[str, Answer]:
+    """Return the answers of devices, asked all at once; never raises PicoError for what one of them does.
+    `properties`: with what each reads of its properties."""
     buses = Buses()
     try:
-        answers = await asyncio.gather(*(_answer(buses, name, entry) for name, entry in entries.items()))
+        answers = await asyncio.gather(*(_answer(buses, name, entry, properties) for name, entry in entries.items()))
     finally:
         await buses.close()
     return dict(zip(entries, answers, strict=True))
@@ -40,17 +43,21 @@ def anybody(entries: Mapping[str, DeviceEntry]) -> dict[str, DeviceEntry]:
     return {name: replace(entry, identity={}) for name, entry in entries.items()}
 
 
-async def _answer(buses: Buses, name: str, entry: DeviceEntry) -> Answer:
-    identity = None
+async def _answer(buses: Buses, name: str, entry: DeviceEntry, properties: bool) -> Answer:
+    identity, reads = None, ""
+    found: Mapping[str, Readout] = {}
     try:
         kind = driver(entry.driver).kind
         instrument = buses.opened(name, entry)
         identity = await instrument.connect()
-        reads = await reading(kind, instrument)
+        if properties and isinstance(instrument, Readable):
+            found = await instrument.readouts()
+        else:
+            reads = await reading(kind, instrument)
         await instrument.close()
     except PicoError as exc:
         return Answer(identity=identity, diagnostics=tuple(exc.diagnostics))
-    return Answer(identity=identity, reads=reads)
+    return Answer(identity=identity, reads=reads, readouts=found)
 
 
 async def reading(kind: Kind, instrument: Instrument) -> str:
@@ -64,8 +71,10 @@ async def _axis(axis: Any) -> str:
 
 
 async def _meter(meter: Any) -> str:
-    power, sigma = await meter.power()
-    return f"{power:.4g} W" + (f" ± {sigma:.2g} W" if sigma is not None else "")
+    found = await meter.power()
+    if found.value is None:
+        return f"unknown: {found.why}"
+    return f"{found.value:.4g} {found.unit}" + (f" ± {found.sigma:.2g} {found.unit}" if found.sigma is not None else "")
 
 
 async def _laser(laser: Any) -> str:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from pico.drivers.bus import Bus
 from pico.drivers.protocols import Instrument, Maturity
+from pico.model.instruments.declaration import Declaration
 from pico.model.wiring import DeviceEntry
 
 Kind = Literal[
@@ -15,24 +16,20 @@ Kind = Literal[
 ]
 
 
-@dataclass(frozen=True)
-class Driver:
-    """A driver. `kind`: which protocol its instruments have; `made(name, entry, bus)` makes one, which opens nothing
-    yet. `opened(entry)` opens the link of a bus and `closed(link)` closes it, both blocking, in the bus's thread;
-    `alive(link)` raises where it is lost, for links that tell by themselves.
+@dataclass(frozen=True, kw_only=True)
+class Driver(Declaration):
+    """A driver: what it declares, and how its link is opened. `made(name, entry, bus)` makes an instrument, which opens
+    nothing yet. `opened(entry)` opens the link of a bus and `closed(link)` closes it, both blocking, in the bus's
+    thread; `alive(link)` raises where it is lost, for links that tell by themselves.
 
-    `address`: what an address says, with what that is; `bus`: which of it tells one link from another. `properties`:
-    what a lab may map and limit, with units. `needs`: the vendor's module, and the extra that installs it, or neither.
-    `emulator`: what stands in for it. Importing a driver's file imports no vendor's library.
+    `needs`: the vendor's module, and the extra that installs it, or neither. `emulator`: what stands in for it.
+    Importing a driver's file imports no vendor's library.
     """
 
     kind: Kind
     made: Callable[[str, DeviceEntry, Bus[Any]], Instrument]
     opened: Callable[[DeviceEntry], Any]
     closed: Callable[[Any], object]
-    address: Mapping[str, str]
-    bus: tuple[str, ...]
-    properties: Mapping[str, str] = field(default_factory=dict)
     needs: tuple[str, str] | None = None
     load: Callable[[], object] | None = None
     """Imports that module, where it must be kept from something; else it is imported as it is."""
@@ -41,5 +38,3 @@ class Driver:
     """With `on device`: the date and the firmware."""
     emulator: str = ""
     alive: Callable[[Any], object] | None = None
-    link: str = ""
-    """Drivers that can share a link say the same here; else none do."""

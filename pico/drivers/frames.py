@@ -2,9 +2,11 @@
 an emulated bench has.
 
 A request is a line of JSON, `{"do": "identify", "id": 7}` or `{"do": "grab", "id": 8, "exposure": 2.5, "gain": 0}` (ms,
-dB; each may be missing); the answer is a line of JSON with the same `id`, of a frame with its `shape`, its `dtype` and
-the `crc32` of its bytes, and then these, row by row. An answer that comes twice, or too late, is none to the next
-request, and a frame that came otherwise than it was sent is none.
+dB; each may be missing); the answer is a line of JSON with the same `id`, of a frame with its `shape`, its `dtype`
+(`uint8` or `uint16`), the number of its `bytes` and their `crc32`, and then these, row by row. A server that counts its
+pictures sends that, too, as `number`: a picture whose number is not above that of the one before is an earlier one. An
+answer that comes twice, or too late, is none to the next request, and a frame that came otherwise than it was sent is
+none.
 """
 
 from __future__ import annotations
@@ -12,8 +14,11 @@ from __future__ import annotations
 import json
 import socket
 import zlib
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from pico.diagnostics import PicoError
+from pico.drivers import judging
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.line import Line
@@ -26,7 +31,6 @@ if TYPE_CHECKING:
 _GRAB = 4.5
 """How long a picture may take [s]."""
 _LARGEST = 1 << 28
-_TYPES = ("uint8", "uint16")
 
 
 class FrameLink:
@@ -36,6 +40,8 @@ class FrameLink:
         self._socket = socket.create_connection((host, port), timeout=_GRAB)
         self._file = self._socket.makefile("rb")
         self._id = 0
+        self.count = -1
+        """The number of the last picture, -1 before the first."""
 
     def ask(self, **request: Any) -> tuple[dict[str, Any], bytes]:
         """Return the answer to a request, and the bytes that come with it."""
@@ -44,11 +50,11 @@ class FrameLink:
         said = json.loads(self._file.readline(65536) or "null")
         if not isinstance(said, dict):
             raise ValueError("it hung up")
-        if said.get("id") != self._id or "error" in said:
+        if type(said.get("id")) is not int or said["id"] != self._id or "error" in said:
             raise ValueError(said.get("error", f"it answers request {said.get('id')}, and {self._id} was asked"))
-        size = int(said.get("bytes", 0))
-        if not 0 <= size <= _LARGEST:
-            raise ValueError(f"a frame of {size} bytes")
+        size = said.get("bytes", 0)
+        if type(size) is not int or not 0 <= size <= _LARGEST:
+            raise ValueError(f"a frame of {size!r:.40} bytes")
         data = self._file.read(size)
         if len(data) != size:
             raise ValueError("it hung up in the middle of a frame")
@@ -74,22 +80,23 @@ class FrameCamera:
     async def grab(self, *, exposure: float | None = None, gain: float | None = None) -> np.ndarray:
         """Return one picture, (rows, columns) or (rows, columns, 3), uint8 or uint16."""
         asked = {key: value for key, value in (("exposure", exposure), ("gain", gain)) if value is not None}
-        said, data = await self._line.ask("take a picture", lambda link: link.ask(do="grab", **asked), within=_GRAB)
-        return _picture(said, data)
+
+        def take(link: FrameLink) -> np.ndarray:
+            said, data = link.ask(do="grab", **asked)
+            try:
+                taken = judging.picture(said, data)
+            except PicoError as exc:
+                raise PicoError([replace(one, address=self.name) for one in exc.diagnostics]) from exc
+            link.count = judging.counted(self.name, said.get("number"), link.count)
+            return taken
+
+        return await self._line.ask("take a picture", take, within=_GRAB)
 
     async def stop(self) -> None:
         """A camera does not move."""
 
     async def close(self) -> None:
         await self._line.close()
-
-
-def _picture(said: dict[str, Any], data: bytes) -> np.ndarray:
-    import numpy as np
-
-    if said.get("dtype") not in _TYPES:
-        raise ValueError(f"pixels of type {said.get('dtype')!r}")
-    return np.frombuffer(data, said["dtype"]).reshape(said["shape"])
 
 
 def _identity(link: FrameLink) -> Identity:
@@ -105,6 +112,7 @@ CAMERA = Driver(
     address={"host": "the server's name or number", "port": "its TCP port"},
     bus=("host", "port"),
     properties={"frame": "count", "exposure": "ms", "gain": "dB"},
+    settings={},
     maturity="emulated",
     emulator="frames",
 )

@@ -7,8 +7,10 @@ did not come in time is told as such, and never taken for one. After `stop` noth
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, Protocol
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
+from pico.model.instruments.readout import Readout
 from pico.model.record import record
 
 if TYPE_CHECKING:
@@ -72,6 +74,15 @@ class Instrument(Protocol):
 
     async def close(self) -> None:
         """Let go of the link; safe to call twice."""
+        ...
+
+
+@runtime_checkable
+class Readable(Protocol):
+    """An instrument that gives its properties with the replies that say them."""
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of each of its properties now, by their names; moves nothing. Raises PicoError."""
         ...
 
 
@@ -156,9 +167,17 @@ class DepthCamera(Camera, Protocol):
 class PowerMeter(Instrument, Protocol):
     """A power meter."""
 
-    async def power(self, *, wavelength: float | None = None) -> tuple[float, float | None]:
-        """Return the power [W] and one standard deviation of it, None where unknown; `wavelength` [nm] is set and read
-        back first."""
+    async def power(self, *, wavelength: float | None = None) -> Readout:
+        """Return the power [W], unknown with the reason if the reply is no number; `wavelength` [nm] is set first, and
+        what is read back of it is in the `settings` of the readout, absent if the meter can't be told."""
+        ...
+
+    async def wavelength(self) -> Readout:
+        """Return the wavelength [nm] for which the reading is corrected."""
+        ...
+
+    async def set_wavelength(self, wavelength: float) -> Readout:
+        """Set the wavelength [nm] for which the reading is corrected, and return what is read back."""
         ...
 
 

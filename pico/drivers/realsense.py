@@ -12,6 +12,7 @@ from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
 from pico.drivers.visa import require_read_back
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
 if TYPE_CHECKING:
@@ -136,7 +137,11 @@ CAMERA = Driver(
         "serial": "its serial number", "software": "which one of the vendor's library stands in for it",
         "width": "of its pictures", "height": "of its pictures",
     },
-    bus=("serial",), properties={"exposure": "ms", "gain": "", "frame": "count", "depth": "mm"},
+    bus=("serial",), settings={
+        "width": Setting(kind=int, default=SIZE[0], unit="pixel", range=(1, 8192), about="columns of its pictures"),
+        "height": Setting(kind=int, default=SIZE[1], unit="pixel", range=(1, 8192), about="rows of its pictures"),
+        "rate": Setting(kind=int, default=RATE, unit="Hz", range=(1, 300), about="pictures a second"),
+    }, properties={"exposure": "ms", "gain": "", "frame": "count", "depth": "mm"},
     needs=("pyrealsense2", "realsense"), maturity="emulated", emulator="realsense",
 )  # fmt: skip
 """`realsense.camera`."""

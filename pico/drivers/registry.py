@@ -86,21 +86,10 @@ def _imported(name: str, found: Driver) -> None:
 
 
 def require_fit(name: str, entry: DeviceEntry, found: Driver) -> None:
-    """Raise PicoError for what an entry says and its driver does not know, and for an address that lacks something."""
-    said = [("address", key, found.address) for key in entry.address]
-    said += [("limits", key, found.properties) for key in entry.limits]
-    said += [("map", wired.property, found.properties) for wired in entry.map.values()]
+    """Raise PicoError for all that an entry says and its driver does not take, and for what it lacks."""
     wrong = [
-        error(
-            "device", f"`{entry.driver}` has no `{key[:40]}` ({where} of {name})", address=name,
-            hint=did_you_mean(key[:40], has) or f"known: {', '.join(has) or 'none'}",
-        )
-        for where, key, has in said if key not in has
-    ]  # fmt: skip
-    wrong += [
-        error("device", f"the address of {name} has no `{key}`", hint=f"`{key}` is {found.address[key]}", address=name)
-        for key in found.bus
-        if key not in entry.address and key != "host"  # what has none is on a serial port
+        error("device", f"{name}: {one.text} ({one.key})", hint=one.hint, address=name)
+        for one in found.complaints(entry)
     ]
     if wrong:
         raise PicoError(wrong)

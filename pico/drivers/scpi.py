@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Protocol
 
 from pico.diagnostics import PicoError
+from pico.drivers import judging
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity, SafetyState
-from pico.drivers.visa import ADDRESS, Visa, require_read_back
+from pico.drivers.visa import ADDRESS, SETTINGS, Visa, complaints, require_read_back, wire_of, within_of
+from pico.model.instruments.declaration import Setting
+from pico.model.instruments.readout import Readout, unknown
+from pico.model.quantities import Value
 from pico.model.wiring import DeviceEntry
 
-_WAVELENGTH = 0.5
-"""How far the wavelength that is read back may be from what was set [nm]."""
+_WAVELENGTH = "SENS:CORR:WAV?"
 _NEEDS = ("pyvisa_py", "scpi")
 
 
@@ -25,8 +31,13 @@ class Spoken:
         self.name, self._entry = name, entry
         self._line = Line(name, bus, entry.identity, Visa.identity)
 
+    @property
+    def _within(self) -> float:
+        """How long two questions may take [s]."""
+        return within_of(self._entry)
+
     async def connect(self) -> Identity:
-        return await self._line.connect()
+        return await self._line.connect(within=self._within)
 
     async def stop(self) -> None:
         """Nothing moves here."""
@@ -38,20 +49,75 @@ class Spoken:
 class PowerMeter(Spoken):
     """A power meter that knows `MEAS:POW?` and `SENS:CORR:WAV`."""
 
-    async def power(self, *, wavelength: float | None = None) -> tuple[float, float | None]:
-        """Return the power [W]; how uncertain it is the meter does not say. `wavelength` [nm] is set, and read back."""
+    async def power(self, *, wavelength: float | None = None) -> Readout:
+        """Return the power [W]; the meter does not say how uncertain it is. `wavelength` [nm] is set first, and what is
+        read back of it is in the `settings` of the readout."""
 
-        def read(visa: Visa) -> float:
-            if wavelength is not None:
-                visa.tell(f"SENS:CORR:WAV {wavelength:.3f}")
-                found = visa.number("SENS:CORR:WAV?")
-                if abs(found - wavelength) > _WAVELENGTH:
-                    require_read_back(self.name, "the wavelength [nm]", wavelength, found)
-            return visa.number("MEAS:POW?")
+        def read(visa: Visa) -> Readout:
+            return metered(visa, self._entry, wavelength)
 
-        if wavelength is not None and (limits := self._entry.limits.get("wavelength")):
-            require_within(self.name, "wavelength", wavelength, limits, "nm")
-        return await self._line.ask("read the power", read, within=4.0), None
+        require_told(self.name, self._entry, wavelength)
+        return await self._line.ask("read the power", read, within=self._within)
+
+    async def wavelength(self) -> Readout:
+        """Return the wavelength [nm] for which the reading is corrected."""
+        return await self._line.ask(
+            "tell its wavelength", lambda visa: judging.number(visa.ask(_WAVELENGTH), "nm"), within=self._within
+        )
+
+    async def set_wavelength(self, wavelength: float) -> Readout:
+        """Set the wavelength [nm] for which the reading is corrected, and return what is read back."""
+        require_told(self.name, self._entry, wavelength)
+        return await self._line.ask(
+            "set its wavelength", lambda visa: corrected(visa, self._entry, wavelength), within=self._within
+        )
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {"power": await self.power(), "wavelength": await self.wavelength()}
+
+
+def require_told(name: str, entry: DeviceEntry, wavelength: float | None) -> None:
+    """Raise PicoError for a wavelength [nm] beyond the limits of a meter."""
+    if wavelength is not None and (limits := entry.limits.get("wavelength")):
+        require_within(name, "wavelength", wavelength, limits, "nm")
+
+
+class Questions(Protocol):
+    """A link over which a meter is asked."""
+
+    def ask(self, question: str) -> str: ...
+
+    def tell(self, command: str) -> None: ...
+
+    def failure(self) -> str: ...
+
+
+def metered(link: Questions, entry: DeviceEntry, wavelength: float | None) -> Readout:
+    """Return the power [W] that a meter reads, corrected for `wavelength` [nm] if it takes that; raises what the link
+    raises, and ValueError for an error queue that can't be read."""
+    settings: dict[str, Value] = {}
+    if wavelength is not None and entry.settings.get("wavelength", True):
+        found = corrected(link, entry, wavelength)
+        if found.value is None:
+            return unknown("W", "wavelength", found.raw, f"it does not tell its wavelength: {found.why}")
+        settings["wavelength"] = found.value
+    raw = link.ask("MEAS:POW?")
+    try:
+        queued = link.failure() if entry.settings.get("error_queue", True) else ""
+    except ValueError as exc:
+        return unknown("W", "garbled", raw, f"its error queue can't be read: {exc}")
+    found = judging.number(raw, "W", limits=entry.limits.get("power"), failure=queued)
+    return replace(found, settings=settings)
+
+
+def corrected(link: Questions, entry: DeviceEntry, wavelength: float) -> Readout:
+    """Set the wavelength [nm] of a meter, and return what it reads back."""
+    link.tell(f"{_WAVELENGTH[:-1]} {wavelength:.3f}")
+    found = judging.number(link.ask(_WAVELENGTH), "nm")
+    if entry.settings.get("error_queue", True) and not judging.same_wavelength(found.value, wavelength):
+        link.failure()  # that it was refused is what was read back: it is no error of the reading
+    return found
 
 
 class Laser(Spoken):
@@ -62,15 +128,22 @@ class Laser(Spoken):
 
         def switch(visa: Visa) -> bool:
             visa.tell(f"OUTP {'ON' if on else 'OFF'}")
-            return _yes(visa.ask("OUTP?"))
+            return judging.switched(visa.ask("OUTP?"))
 
         ask = self._line.move if on else self._line.ask
-        found = await ask("emit" if on else "stop emitting", switch)
+        found = await ask("emit" if on else "stop emitting", switch, within=self._within)
         require_read_back(self.name, "emission", on, found)
         return found
 
     async def emitting(self) -> bool | None:
-        return await self._line.ask("tell whether it emits", lambda visa: _yes(visa.ask("OUTP?")))
+        return await self._line.ask(
+            "tell whether it emits", lambda visa: judging.switched(visa.ask("OUTP?")), within=self._within
+        )
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        ask = self._line.ask
+        return {"emission": await ask("tell whether it emits", lambda visa: judging.switch(visa.ask("OUTP?")))}
 
     async def stop(self) -> None:
         """Switch it off, before all else."""
@@ -139,35 +212,39 @@ class Lamp(Spoken):
 def contact(visa: Visa, entry: DeviceEntry) -> tuple[bool, int]:
     """Return whether the contact of an entry is closed, and the count of the answer; raises ValueError."""
     closed, _, count = visa.ask(f"INP? (@{entry.address['channel']})").partition(",")
-    return _yes(closed), int(count)
-
-
-def _yes(said: str) -> bool:
-    if said not in ("0", "1"):
-        raise ValueError(f"{said[:40]!r} is neither 0 nor 1")
-    return said == "1"
+    return judging.switched(closed), judging.whole(count)
 
 
 _CONTACTS = {
     **ADDRESS, "channel": "the number of its contact", "relay": "the number of its relay",
 }  # fmt: skip
+METER_SETTINGS = {
+    **SETTINGS,
+    "wavelength": Setting(kind=bool, default=True, about="whether it knows `SENS:CORR:WAV`, to be told the light's"),
+    "error_queue": Setting(kind=bool, default=True, about="whether it knows `SYST:ERR?`, asked after each reading"),
+}
 METER = Driver(
     kind="power meter", made=PowerMeter, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",),
+    settings=METER_SETTINGS, wire=wire_of, check=complaints,
     properties={"power": "W", "wavelength": "nm"}, needs=_NEEDS, maturity="emulated", emulator="scpi.meter",
 )  # fmt: skip
 LASER = Driver(
     kind="laser", made=Laser, opened=Visa, closed=Visa.close, address=ADDRESS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints,
     properties={"emission": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.laser",
 )  # fmt: skip
 SAFETY = Driver(
     kind="safety input", made=SafetyInput, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 SHUTTER = Driver(
     kind="shutter", made=Shutter, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"open": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 LAMP = Driver(
     kind="lamp", made=Lamp, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"on": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip

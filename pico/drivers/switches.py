@@ -12,12 +12,15 @@ from __future__ import annotations
 import asyncio
 import socket
 import time
+from collections.abc import Mapping
 from typing import Any
 
+from pico.base.reasons import ReasonCode
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver, Kind
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity, SafetyState
+from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 
 _REPLY = 1.0
@@ -47,6 +50,15 @@ class SwitchLink:
             raise ValueError(f"it answers {said[:40]!r}, and question {self._number} was asked")
         return answer
 
+    def readout(self, words: str) -> Readout:
+        """Return the answer to a line, as it came, and the state that it says."""
+        said = self.ask(words)
+        state = _STATES.get(said)
+        if state is not None:
+            return Readout(unit="", value=state, raw=said)
+        code: ReasonCode = "no-number" if said in _STATES else "garbled"
+        return unknown("", code, said, "the box does not know" if said in _STATES else f"it answers {said[:40]!r}")
+
     def state(self, words: str) -> bool | None:
         """Return the state that a line is answered by; None where the box does not know."""
         said = self.ask(words)
@@ -60,6 +72,11 @@ class SwitchLink:
 
 
 class _Switch:
+    prop = ""
+    """The property that it has."""
+    _sensor = ""
+    """What follows its name where it is read."""
+
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[SwitchLink]) -> None:
         self.name, self._at = name, str(entry.address["name"])
         self._line = Line(name, bus, entry.identity, _identity)
@@ -73,6 +90,11 @@ class _Switch:
     async def close(self) -> None:
         await self._line.close()
 
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads, with the answer of the box."""
+        name = self._at + self._sensor
+        return {self.prop: await self._line.ask("tell its state", lambda link: link.readout(f"read {name}"))}
+
     async def _read(self, what: str, name: str) -> bool | None:
         return await self._line.ask(what, lambda link: link.state(f"read {name}"))
 
@@ -82,6 +104,8 @@ class _Switch:
 
 class SwitchedShutter(_Switch):
     """A shutter with a sensor of its own."""
+
+    prop, _sensor = "open", ".sensor"
 
     async def open(self, wanted: bool) -> bool:
         """Open or close it, and return what its sensor says once it is there, or has had its time."""
@@ -98,6 +122,8 @@ class SwitchedShutter(_Switch):
 class SwitchedLaser(_Switch):
     """A laser that reports whether it emits."""
 
+    prop = "emission"
+
     async def emit(self, on: bool) -> bool:
         return bool(await self._set("emit" if on else "go out", on))
 
@@ -108,12 +134,16 @@ class SwitchedLaser(_Switch):
 class SwitchedLamp(_Switch):
     """A lamp."""
 
+    prop = "on"
+
     async def shine(self, on: bool) -> bool:
         return bool(await self._set("shine" if on else "go out", on))
 
 
 class SwitchedInput(_Switch):
     """A safety input."""
+
+    prop = "safe"
 
     async def read(self) -> SafetyState:
         return SafetyState(safe=await self._read("tell whether it is safe", self._at), age=0.0)
@@ -130,7 +160,8 @@ def _driver(kind: Kind, made: Any, prop: str) -> Driver:
         opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),
         closed=lambda link: link.close(),
         address={"host": "the box's name or number", "port": "its TCP port", "name": "what it calls this one"},
-        bus=("host", "port"), properties={prop: ""}, maturity="emulated", emulator="switches", link="switches",
+        bus=("host", "port"), properties={prop: ""}, settings={}, one_identity=True,
+        maturity="emulated", emulator="switches", link="switches",
     )  # fmt: skip
 
 

@@ -4,15 +4,20 @@ the library knows it only from an online database. Every reply carries the numbe
 from __future__ import annotations
 
 import asyncio
+import re
 import time
+from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
+from pico.drivers import judging
 from pico.drivers.bus import LONGEST, Bus
 from pico.drivers.driver import Driver
 from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
+from pico.model.instruments.declaration import Setting
+from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 
 if TYPE_CHECKING:
@@ -20,9 +25,22 @@ if TYPE_CHECKING:
 
 REPLY = 800
 """How long a reply may take [ms]."""
-_FAULTS = {"FS": "it is stalled", "FE": "it fell behind", "FB": "its driver is too warm or not supplied",
-           "FO": "its driver is off", "FH": "it did not find its home"}  # fmt: skip
+_FAULTS = {
+    "FF": "it has a critical system error", "FN": "its peripheral is not supported",
+    "FZ": "its peripheral is inactive", "FH": "the emergency stop of its hardware has disabled its driver",
+    "FV": "its supply is too high or too low, and its driver off", "FO": "its driver is off",
+    "FC": "its inrush current was too high", "FM": "its motor is too warm", "FD": "its driver is off",
+    "FQ": "its encoder reports an error", "FI": "the index of its encoder is wrong",
+    "FA": "its analog encoder lost synchronism", "FR": "it was overdriven", "FS": "it is stalled",
+    "FB": "a sequence left its bounds", "FP": "it left its path", "FE": "it ran into a limit",
+    "FT": "it is twisted too far", "WL": "a limit switch stopped it",
+}  # fmt: skip
+"""Flags of replies by which a motion or a position can't be relied on (the vendor's ASCII protocol, warning flags)."""
+_INTERRUPTED = {"NI": "another command interrupted its motion", "NC": "a person drives it by its knob"}
+_NO_ZERO = ("WR", "WH")
+"""It has no reference position, or was not homed."""
 _POLL = 0.02
+_FLAG = re.compile("[FWN][A-Z]")
 _REACHED = 2.0
 """How many counts from where it was sent a stage may come to rest."""
 
@@ -53,6 +71,7 @@ class Stage:
             raise PicoError(error("device", text, hint=f"`settings: {{counts_per_unit: ...}}`; {hint}", address=name))
         self._counts = float(counts)
         self._limits = entry.limits.get("position")
+        self._unit = STAGE.unit(entry, "position")
         self._line = Line(name, bus, entry.identity, self._identity)
 
     async def connect(self) -> Identity:
@@ -60,20 +79,32 @@ class Stage:
 
     async def position(self) -> float | None:
         """Return where it is; None before it was homed."""
+        return (await self.readout()).number
 
-        def read(link: Connection) -> float | None:
+    async def readout(self) -> Readout:
+        """Return where it is, with the reply; unknown before it was homed."""
+
+        def read(link: Connection) -> Readout:
             reply = self._asked(link, "get pos")
-            return None if reply.warning_flag in ("WR", "WH") else float(reply.data) / self._counts
+            raw = f"{reply.status} {reply.warning_flag} {reply.data}"
+            if set(_NO_ZERO) & self._flags(link, reply):
+                return unknown(self._unit, "not-homed", raw)
+            return Readout(unit=self._unit, value=self._position(reply), raw=raw)
 
         return await self._line.ask("tell where it is", read)
 
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {"position": await self.readout()}
+
     async def move_to(self, position: float) -> float:
-        """Drive there, in the unit of its counts."""
+        """Drive there, in the unit of its counts. Raises PicoError for one that was not homed: its counts begin
+        anywhere."""
         if self._limits:
-            require_within(self.name, "position", position, self._limits, "(the unit of its counts)")
-        at = await self._moved(f"drive to {position:g}", f"move abs {round(position * self._counts)}")
+            require_within(self.name, "position", position, self._limits, self._unit)
+        at = await self._moved(f"drive to {position:g} {self._unit}", f"move abs {round(position * self._counts)}")
         if abs(at - position) * abs(self._counts) > _REACHED:
-            text = f"{self.name} came to rest at {at:.6g}, and was to drive to {position:g}"
+            text = f"{self.name} came to rest at {at:.6g}, and was to drive to {position:g} {self._unit}"
             raise PicoError(error("device-missed", text, address=self.name))
         return at
 
@@ -90,13 +121,27 @@ class Stage:
     async def _moved(self, what: str, command: str) -> float:
         """Begin to move, and return where it is at rest; raises PicoError where it fails, or stands still too late."""
         stops = self._line.stops
-        await self._line.move(what, lambda link: self._asked(link, command))
+
+        def begin(link: Connection) -> None:
+            flags = self._flags(link, self._asked(link, "get pos"))
+            if command != "home" and flags & set(_NO_ZERO):
+                text = f"{self.name} does not know where it is: it was not homed since it has power"
+                raise PicoError(error("device-unhomed", text, hint="home it first", address=self.name))
+            if flags & _INTERRUPTED.keys():  # of an earlier motion: it is kept until it is cleared
+                link.generic_command("warnings clear", self._device, self._axis, False, REPLY)
+            self._asked(link, command)
+
+        await self._line.move(what, begin)
         last, since = float("nan"), time.monotonic()
         while True:
             reply = await self._line.ask(what, lambda link: self._asked(link, "get pos"))
             self._line.require_running(stops, what)
-            at = float(reply.data) / self._counts
+            at = self._position(reply)
             if reply.status != "BUSY":
+                flags = await self._line.ask(what, lambda link, reply=reply: self._flags(link, reply))  # type: ignore[misc]
+                for flag in sorted(flags & _INTERRUPTED.keys()):
+                    text = f"{self.name} reports: {_INTERRUPTED[flag]} (Zaber {flag}): {what}"
+                    raise PicoError(error("device-fault", text, hint="plan again", address=self.name))
                 return at
             if at != last:
                 last, since = at, time.monotonic()
@@ -105,6 +150,21 @@ class Stage:
                 text = f"{self.name} says it moves, and has not for {LONGEST:g} s: {what}"
                 raise PicoError(error("device-late", text, address=self.name))
             await asyncio.sleep(_POLL)
+
+    def _position(self, reply: Any) -> float:
+        found = judging.number(str(reply.data), self._unit)
+        if found.number is None:
+            text = f"{self.name} does not tell its position: {found.why}"
+            raise PicoError(error("device-reply", text, address=self.name))
+        return found.number / self._counts
+
+    def _flags(self, link: Connection, reply: Any) -> set[str]:
+        """Return all flags of the axis; a reply holds only the one that is most urgent, which may hide another."""
+        first = str(reply.warning_flag)
+        if first == "--":
+            return set()
+        listed = str(link.generic_command("warnings", self._device, self._axis, False, REPLY).data).split()[1:]
+        return {first, *(flag for flag in listed if _FLAG.fullmatch(flag))}
 
     def _asked(self, link: Connection, command: str) -> Any:
         reply = link.generic_command(command, self._device, self._axis, True, REPLY)
@@ -127,6 +187,11 @@ STAGE = Driver(
     kind="axis", made=Stage, opened=_opened, closed=lambda link: link.close(),
     address={"host": "its IP address, where it has one", "port": "the TCP port, or the serial port",
              "device": "its number in the chain", "axis": "the number of its axis"},
-    bus=("host", "port"), properties={"position": "mm or deg"}, needs=("zaber_motion.ascii", "zaber"),
-    maturity="emulated", emulator="zaber", link="zaber",
+    bus=("host", "port"), usual={"device": "1", "axis": "1"}, properties={"position": "mm"},
+    settings={
+        "counts_per_unit": Setting(about="counts a mm or a degree: 1 / the microstep size on the vendor's page"),
+        "unit": Setting(kind=str, default="mm", choices=("mm", "deg"), about="what unit the counts are of"),
+        "emulated_speed": Setting(default=26.0, unit="/s", range=(0.001, 1e4), about="how fast its emulator drives"),
+    },
+    needs=("zaber_motion.ascii", "zaber"), maturity="emulated", emulator="zaber", link="zaber",
 )  # fmt: skip

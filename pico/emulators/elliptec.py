@@ -1,4 +1,5 @@
-"""A bus of Thorlabs Elliptec rotation mounts ELL14 on a serial line, as the vendor's protocol manual describes them.
+"""A bus of Thorlabs Elliptec devices on a serial line, as the vendor's protocol manual describes them: rotation mounts
+ELL14 and linear stages ELL17 and ELL20.
 
 ASCII without terminators from the host, replies end in CRLF: `<address><two letters><hex>`. `in` who, `gs` status
 (reading it clears it), `gp` position, `ma` and `mr` moves, `ho` home, `st` stop, `gj` and `sj` the jog step, kept while
@@ -9,6 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import dataclass
 
 from pico.emulators.behind import Behind, Emulator
 from pico.emulators.motion import Motion
@@ -19,19 +21,43 @@ PULSES = 143360
 """Of one turn of an ELL14."""
 SPEED = 430.0
 """Of an ELL14 [deg/s]."""
+SLOWEST = 80.0
+"""Of a linear stage at the lowest velocity that can be set, 45 % of 180 mm/s [mm/s]."""
 MECHANICAL_TIMEOUT, UNKNOWN_COMMAND, OUT_OF_RANGE, BUSY = 2, 3, 4, 9
 _COMMAND = re.compile(rb"([0-9A-F])(in|gs|gp|st|gj|go|ho[01]|(?:ma|mr|sj|so)[0-9A-Fa-f]{8})")
 
 
-class Mount:
-    """One ELL14: what is read and written behind it is `angle` [deg]; `stuck` [deg], where it is not None, is where it
-    does not get past."""
+@dataclass(frozen=True)
+class Kind:
+    """A model: the `code` in its reply to `in`, its travel [deg or mm], pulses a turn or a mm and what that is
+    [deg or mm], its speed [deg/s or mm/s], and the driver's property that it moves."""
 
-    def __init__(self, serial: str, behind: Behind) -> None:
-        self.serial, self.behind = serial, behind
+    code: int
+    travel: int
+    pulses: int
+    per: float
+    speed: float
+    moves: str
+
+
+KINDS = {
+    "ELL14": Kind(0x0E, 360, PULSES, 360.0, SPEED, "angle"),
+    "ELL17": Kind(0x11, 28, 1024, 1.0, SLOWEST, "position"),
+    "ELL20": Kind(0x14, 60, 1024, 1.0, SLOWEST, "position"),
+}
+USUAL = {"elliptec.rotator": "ELL14", "elliptec.stage": "ELL17"}
+"""The model that stands in for the devices of a driver."""
+
+
+class Mount:
+    """One device: what is read and written behind it is where it is [deg or mm], under the name of what it `moves`;
+    `stuck`, where it is not None, is where it does not get past."""
+
+    def __init__(self, serial: str, behind: Behind, kind: Kind = KINDS["ELL14"]) -> None:
+        self.serial, self.behind, self.kind = serial, behind, kind
         self._motion: Motion | None = None
         self._status, self._offset = 0, 0
-        self._jog = int(behind.read("jog") or PULSES // 8)
+        self._jog = int(behind.read("jog") or kind.pulses // 8)
 
     def answer(self, command: str) -> str:
         """Return the reply to one command, without address; '' where it comes once the motion has ended."""
@@ -41,9 +67,9 @@ class Mount:
             return f"GS{BUSY:02X}"
         if name in ("ma", "mr"):
             asked = _signed(hexadecimal) + (self._pulses(now) if name == "mr" else 0)
-            return self._go(asked * 360 / PULSES, now)
+            return self._go(asked * self.kind.per / self.kind.pulses, now)
         if name == "ho":
-            return self._go(self._offset * 360 / PULSES, now)
+            return self._go(self._offset * self.kind.per / self.kind.pulses, now)
         if name == "st":
             return self._stopped(now)
         return self._told(name, hexadecimal, now)
@@ -53,7 +79,7 @@ class Mount:
         motion, now = self._motion, self.behind.now()
         if motion is None:
             return ""
-        self.behind.write("angle", motion.at(now))
+        self.behind.write(self.kind.moves, motion.at(now))
         if not motion.ended(now):
             return ""
         self._motion = None
@@ -64,7 +90,8 @@ class Mount:
 
     def _told(self, name: str, hexadecimal: str, now: float) -> str:
         if name == "in":
-            return f"IN0E{self.serial:>08}2026" + "17" + "01" + f"{360:04X}" + f"{PULSES:08X}"
+            about = f"{self.kind.travel:04X}{self.kind.pulses:08X}"
+            return f"IN{self.kind.code:02X}{self.serial:>08}2026" + "17" + "01" + about
         if name == "gs":
             status = BUSY if self._motion else self._status
             self._status = 0
@@ -81,20 +108,20 @@ class Mount:
         return f"GJ{_hex(self._jog)}" if name == "gj" else f"HO{_hex(self._offset)}"
 
     def _go(self, angle: float, now: float) -> str:
-        self._motion = Motion(self._angle(now), angle, now, SPEED, self.behind.read("stuck"))
+        self._motion = Motion(self._angle(now), angle, now, self.kind.speed, self.behind.read("stuck"))
         return ""
 
     def _stopped(self, now: float) -> str:
         if self._motion:
-            self.behind.write("angle", self._motion.at(now))
+            self.behind.write(self.kind.moves, self._motion.at(now))
             self._motion = None
         return "GS00"
 
     def _angle(self, now: float) -> float:
-        return self._motion.at(now) if self._motion else float(self.behind.read("angle") or 0.0)
+        return self._motion.at(now) if self._motion else float(self.behind.read(self.kind.moves) or 0.0)
 
     def _pulses(self, now: float) -> int:
-        return round(self._angle(now) / 360 * PULSES)
+        return round(self._angle(now) / self.kind.per * self.kind.pulses)
 
 
 def _signed(hexadecimal: str) -> int:
@@ -136,7 +163,11 @@ class MountBus:
 
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> SerialServed:
     mounts = {
-        str(entry.address.get("bus", "0")): Mount(str(entry.identity.get("serial", "00000000")), behind)
+        str(entry.address.get("bus", "0")): Mount(
+            str(entry.identity.get("serial", "00000000")),
+            behind,
+            KINDS.get(entry.identity.get("model", ""), KINDS[USUAL.get(entry.driver, "ELL14")]),
+        )
         for entry, behind in devices.values()
     }
     return SerialServed(MountBus(mounts))

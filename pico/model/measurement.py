@@ -8,15 +8,20 @@ from types import MappingProxyType
 from typing import Any, Literal, get_args
 
 from pico.base.formats import Format
+from pico.base.reasons import ReasonCode
 from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.shown.html import number, table
 
 FORMAT = Format("pico.measurement")
 
-Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated"]
-"""What may be assured of a measurement; `shutter` and `illumination` where the measurable declares what it needs."""
+Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated", "wavelength"]
+"""What may be assured of a measurement; `shutter` and `illumination` where the measurable declares what it needs,
+`wavelength` of a meter that is told the wavelength of the light."""
 CONDITIONS: tuple[Condition, ...] = get_args(Condition)
+_LATER: frozenset[Condition] = frozenset({"wavelength"})
+"""Conditions that earlier records do not have, and a simulated meter need not: that only one of two measurements has
+them does not keep these from being compared."""
 PEEKED = "it was only peeked at, without the lease"
 
 
@@ -36,10 +41,11 @@ class Measurement:
 
     `value`: a number, a word, numbers by name (of a pose, of an image), or None; `array`: where there is more than
     goes into a line. `unit`; where numbers by name have several, in their order. `unknown`: why there is no value,
-    though it was measured. `sigma`: one standard deviation, as the value; `noise`: the part of it that differs
-    between readings of the same instrument, which does not hold what they have in common (the calibration of a
-    meter); None: all of it. `settings`: what it depends on, such as exposure, gain and background. `time` on the
-    bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of what a device gave.
+    though it was measured, and `reason`: the same as a code. `sigma`: one standard deviation, as the value; `noise`:
+    the part of it that differs between readings of the same instrument, which does not hold what they have in common
+    (the calibration of a meter); None: all of it. `settings`: what it depends on, such as exposure, gain and
+    background. `time` on the bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of
+    what a device gave.
     `assured`: what was seen to hold; `not_assured`: what was not, and why.
     """
 
@@ -50,6 +56,7 @@ class Measurement:
     array: ArrayRef | None = None
     unit: str = ""
     unknown: str | None = None
+    reason: ReasonCode | None = None
     sigma: float | Mapping[str, float] | None = None
     noise: float | Mapping[str, float] | None = None
     settings: Mapping[str, Value] = field(default_factory=dict)
@@ -137,7 +144,7 @@ def _differing(a: Measurement, b: Measurement, within: Mapping[str, float]) -> I
     for which, measured in (("first", a), ("second", b)):
         for condition, why in measured.not_assured.items():
             yield f"not assured of the {which}: {condition} ({why})"
-    for condition in CONDITIONS:
+    for condition in (one for one in CONDITIONS if one not in _LATER):
         if (condition in a.assured) != (condition in b.assured) and condition not in {*a.not_assured, *b.not_assured}:
             yield f"assured of the {'first' if condition in a.assured else 'second'} only: {condition}"
 

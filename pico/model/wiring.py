@@ -16,7 +16,7 @@ SafetyKind = Literal["door", "curtain", "emergency_stop", "key", "interlock", "s
 @record
 class Wired:
     """The driver's property that a tunable or measurable stands for. What the lab says is `scale` times what the
-    device has, plus `offset`, in `unit`, where that is not the unit of the tunable itself."""
+    device has, plus `offset`, in `unit`. Without `unit` that is the unit that the driver declares of the property."""
 
     property: str
     scale: float = 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -31,6 +32,17 @@ devices:
     driver: elliptec.rotator
     address: {port: /dev/none, bus: "3"}
     identity: {serial: "11400518"}
+"""
+METER = """\
+apiVersion: pico/v1
+kind: Devices
+metadata: {lab: mach_zehnder}
+devices:
+  pm:
+    of: meter
+    driver: scpi.meter
+    address: {visa: "TCPIP0::pm.invalid::5025::SOCKET"}
+    map: {power: {property: power}, wavelength: {property: wavelength}}
 """
 LIBRARIES = (
     "serial",
@@ -80,6 +92,28 @@ def test_each_device_of_the_example_answers_emulated_and_its_vendors_library_say
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
     assert all(row["answer"]["reads"] for row in json.loads(done.stdout)["devices"])
+
+
+def test_a_property_is_shown_as_it_was_replied_in_its_unit_and_in_the_labs(lab: Path, pico: Pico) -> None:
+    (lab / "lab.yaml").write_bytes((labs_dir() / "mach_zehnder" / "lab.yaml").read_bytes())
+    shutil.rmtree(lab / "state")
+    shutil.copytree(labs_dir() / "mach_zehnder" / "state", lab / "state")
+    (lab / "devices.yaml").write_text(METER)
+    found = json.loads(pico("-C", str(lab), "devices", "read", "pm", "--emulate", "--json").out)
+    assert found["schema"] == "pico.device-properties/v1"
+    assert found["properties"] == [
+        {"device": "pm", "property": "power", "raw": "0.000000000E+00", "value": 0.0, "unit": "W", "why": "",
+         "address": "meter.power", "lab_value": 0.0, "lab_unit": "mW"},
+        {"device": "pm", "property": "wavelength", "raw": "635.000", "value": 635.0, "unit": "nm", "why": "",
+         "address": "meter.wavelength", "lab_value": 635.0, "lab_unit": "nm"},
+    ]  # fmt: skip
+    shown = pico("-C", str(lab), "devices", "read", "--emulate").out
+    assert "635.000" in shown and "meter.wavelength 635 nm" in shown
+
+
+def test_a_property_that_is_unknown_says_why(lab: Path, pico: Pico) -> None:
+    answer = pico("-C", str(lab), "devices", "read", "p1_mount", "--emulate")
+    assert answer.code == 0 and "unknown: not-homed" in answer.out and "2GJ" in answer.out
 
 
 def test_who_does_not_answer_is_named_with_exit_code_1(lab: Path, pico: Pico) -> None:

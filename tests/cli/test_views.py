@@ -54,6 +54,15 @@ def test_numbers_of_a_kernel_have_their_own_units_whatever_order_a_document_has_
     assert line({**found, "kernel": "image | nobody knows it"}).startswith("angle 2 um"), "as it came"
 
 
+@pytest.mark.parametrize(("value", "sigma", "unit", "shown"), [
+    (0.00123, None, "V", "1.23 mV"), (-0.00123, 0.00002, "V", "-1.230 mV ± 0.020 mV"), (2.5, None, "V", "2.5 V"),
+    (0.0, None, "V", "0 V"), (4.5e-8, None, "A", "45 nA"), (0.0, 0.002, "V", "0.0 mV ± 2.0 mV"),
+    (1.5, 0.01, "V", "1.500 ± 0.010 V"),
+])  # fmt: skip
+def test_small_volts_keep_their_digits(value: float, sigma: float | None, unit: str, shown: str) -> None:
+    assert line({"value": value, "sigma": sigma, "unit": unit}) == shown
+
+
 def test_errors_stand_last_and_are_counted() -> None:
     text = plain(view.text([error("a", "one"), warning("b", "two"), error("c", "three")]))
     assert text.splitlines()[0] == "warning[b]: two"

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from pico.diagnostics import PicoError, error
 from pico.model.wiring import DeviceEntry
 
 
@@ -34,7 +35,10 @@ class Case:
 
 
 async def _power(meter: Any) -> float:
-    return float((await meter.power())[0])
+    found = await meter.power()
+    if found.unknown:
+        raise PicoError(error(found.unknown, found.why, address="it"))
+    return float(found.value)
 
 
 async def _safe(safety: Any) -> bool | None:
@@ -63,6 +67,12 @@ CASES = {
         {"angle": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
         moves=lambda axis: axis.move_to(170.0), moved=("angle", 170.0), beyond=lambda axis: axis.move_to(181.0),
         stuck=80.0, other=30.0),
+    "elliptec.stage": Case(
+        DeviceEntry(driver="elliptec.stage", emulator="elliptec", address={"port": "", "bus": "3"},
+                    identity={"serial": "11700042", "model": "ELL20"}, limits={"position": (0, 58)}),
+        {"position": 0.0}, lambda axis: axis.position(), 0.0, begins=lambda axis: axis.home(),
+        moves=lambda axis: axis.move_to(55.0), moved=("position", 55.0), beyond=lambda axis: axis.move_to(58.5),
+        stuck=10.0, other=5.0),
     "zaber.stage": Case(
         DeviceEntry(driver="zaber.stage", emulator="zaber", address={"host": "", "port": "0", "device": 1},
                     identity={"serial": "12345"}, limits={"position": (0, 50)},

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from pico.diagnostics import PicoError
-from pico.drivers import elliptec, limits, scpi, switches, zaber
+from pico.drivers import elliptec, limits, scpi, switches, visa, zaber
 from pico.drivers.bus import Bus
 from pico.model.wiring import DeviceEntry
 
@@ -282,6 +282,10 @@ class Chain:
     at: float = 0.0
     creeps: bool = False
     """Whether it gets on by a count from one question to the next."""
+    listed: str = ""
+    """What it answers to `warnings`; by default the warning alone."""
+    clears: bool = False
+    """Whether a warning is gone once it was cleared."""
     sent: list[str] = field(default_factory=list)
     checked: dict[str, bool] = field(default_factory=dict)
 
@@ -300,6 +304,11 @@ class Chain:
             self.at += self.creeps
             return SimpleNamespace(data=str(self.at), status="BUSY", warning_flag="--")
         moving = command.startswith("move") or command == "home"
+        if command == "warnings":
+            listed = self.listed or f"01 {self.warning}"
+            return SimpleNamespace(data=listed, status="IDLE", warning_flag=self.warning)
+        if command == "warnings clear" and self.clears:
+            self.warning = "--"
         flag = "--" if moving or command == "warnings clear" else self.warning
         return SimpleNamespace(data=str(self.at), status="IDLE", warning_flag=flag)
 
@@ -326,19 +335,50 @@ def test_a_stage_that_comes_to_rest_beside_its_goal_has_missed_it_on_either_side
     assert f"3 2 move abs {round(goal * counts)}" in chain.sent
 
 
-@pytest.mark.parametrize("flag", ["FS", "FE", "FB", "FO", "FH", "--", "WR", "WH", "NC"])
+@pytest.mark.parametrize("flag", [*sorted(zaber._FAULTS), "--", "WV", "WT", "NU", "NR"])
 def test_what_a_stage_says_went_wrong_is_told_and_cleared(flag: str) -> None:
     chain = Chain(warning=flag)
-    fault = flag.startswith("F")
+    fault = flag in zaber._FAULTS
     assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == ("device-fault" if fault else 4.0)
     assert ("3 2 warnings clear" in chain.sent) is fault
     reads = asked(lambda axis: axis.position(), *stage(Chain(warning=flag, at=4000.0)))
-    assert reads == ("device-fault" if fault else None if flag in ("WR", "WH") else 4.0)
+    assert reads == ("device-fault" if fault else 4.0)
+
+
+@pytest.mark.parametrize(("flag", "listed"), [("WR", "01 WR"), ("WH", "01 WH"), ("WV", "02 WV WR"), ("NC", "02 NC WR")])
+def test_a_stage_that_was_not_homed_is_not_driven_but_home(flag: str, listed: str) -> None:
+    chain = Chain(warning=flag, listed=listed)
+    assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == "device-unhomed"
+    assert not any("move" in sent for sent in chain.sent)
+    assert asked(lambda axis: axis.position(), *stage(Chain(warning=flag, listed=listed, at=4000.0))) is None
+    if not flag.startswith("N"):
+        assert asked(lambda axis: axis.home(), *stage(Chain(warning=flag, listed=listed))) == 0.0
+
+
+@pytest.mark.parametrize("flag", ["NI", "NC"])
+def test_a_motion_that_another_one_interrupts_is_told(flag: str) -> None:
+    assert asked(lambda axis: axis.move_to(4.0), *stage(Chain(warning=flag))) == "device-fault"
+
+
+def test_a_note_of_an_earlier_motion_is_cleared_before_the_next() -> None:
+    chain = Chain(warning="NI", clears=True)
+    assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == 4.0
+    assert chain.sent.index("3 2 warnings clear") < chain.sent.index("3 2 move abs 4000")
+
+
+@pytest.mark.parametrize("data", ["nan", "inf", "1_0", "", "NA", "\u0661", "12 13"])
+def test_a_position_that_is_no_number_is_told(data: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    chain = Chain()
+    axis, bus = stage(chain)
+    usual = chain.generic_command
+    said = SimpleNamespace(data=data, status="IDLE", warning_flag="--")
+    chain.generic_command = lambda c, *rest: said if c == "get pos" else usual(c, *rest)  # type: ignore[method-assign]
+    assert asked(lambda one: one.position(), axis, bus) == "device-reply"
 
 
 def test_a_stage_is_waited_for_while_it_is_busy_and_homes_to_its_zero(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zaber, "_POLL", 0.0)
-    chain = Chain(3.0, busy=3)
+    chain = Chain(3.0, busy=4)
     assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == "device-missed" and chain.busy == 0
     chain = Chain(busy=3, at=9.0)
     assert asked(lambda axis: axis.home(), *stage(chain)) == 0.0 and chain.busy == 0 and "3 2 home" in chain.sent
@@ -354,7 +394,7 @@ def test_a_stage_that_says_it_moves_and_does_not_is_stopped_and_told(monkeypatch
 def test_a_stage_that_gets_on_is_waited_for_however_slow_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(zaber, "_POLL", 0.0)
     monkeypatch.setattr(zaber, "LONGEST", 0.0)
-    chain = Chain(busy=20, creeps=True, off=-20.0)
+    chain = Chain(busy=21, creeps=True, off=-20.0)  # the first question comes before it moves
     assert asked(lambda axis: axis.move_to(4.0), *stage(chain)) == 4.0 and "3 2 stop" not in chain.sent
 
 
@@ -569,19 +609,79 @@ def test_a_stop_that_does_not_come_through_is_told_of_its_device(kind: Any, monk
 
 
 @pytest.mark.parametrize(("wavelength", "reads", "code"), [
-    (None, 500.0, None), (632.8, 632.8, None), (632.8, 633.2, None), (632.8, 633.5, "device-read-back"),
-    (632.8, 632.0, "device-read-back"), (399.0, 399.0, "device-limit"), (701.0, 701.0, "device-limit"),
+    (None, 500.0, None), (632.8, 632.8, None), (632.8, 633.2, None), (632.8, 633.5, None), (632.8, 1550.0, None),
+    (399.0, 399.0, "device-limit"), (701.0, 701.0, "device-limit"),
 ])  # fmt: skip
-def test_a_meter_reads_at_the_wavelength_that_it_was_set_to(
-    wavelength: float | None, reads: float, code: str | None, monkeypatch: pytest.MonkeyPatch
+def test_a_meter_is_set_to_a_wavelength_and_says_which_it_reads_back(
+    wavelength: float | None, reads: float, code: str | None
 ) -> None:
-    monkeypatch.setattr(Spoken, "number", lambda self, q: reads if q == "SENS:CORR:WAV?" else 0.0012, raising=False)
-    link = Spoken()
-    bus: Bus[Any] = Bus(lambda: link, lambda one: None)
-    entry = DeviceEntry(driver="scpi.meter", address={"visa": "x"}, limits={"wavelength": (400.0, 700.0)})
-    found = asked(lambda meter: meter.power(wavelength=wavelength), scpi.PowerMeter("it", entry, bus), bus)
-    assert found == (code or (0.0012, None))
+    link = Metered({"SENS:CORR:WAV?": f"{reads:.3f}"})
+    found = asked(lambda meter: meter.power(wavelength=wavelength), *meter(link, {"wavelength": (400.0, 700.0)}))
     assert link.sent == ([] if wavelength is None or code == "device-limit" else [f"SENS:CORR:WAV {wavelength:.3f}"])
+    if code:
+        assert found == code
+        return
+    assert (found.value, found.unit) == (0.0012, "W")
+    assert found.settings == ({} if wavelength is None else {"wavelength": reads})
+
+
+@pytest.mark.parametrize(("replies", "code"), [
+    ({"MEAS:POW?": "9.9E37"}, "over-range"), ({"MEAS:POW?": "9.91E37"}, "no-number"),
+    ({"MEAS:POW?": "NAN"}, "no-number"),
+    ({"MEAS:POW?": "-9.9E+37"}, "under-range"), ({"MEAS:POW?": "0.0012 W"}, "garbled"), ({"MEAS:POW?": ""}, "garbled"),
+    ({"SYST:ERR?": '-230,"Data corrupt"'}, "instrument-error"), ({"SYST:ERR?": "what"}, "garbled"),
+    ({"SENS:CORR:WAV?": "9.91E37"}, "wavelength"), ({"MEAS:POW?": "0.3"}, "out-of-limits"),
+])  # fmt: skip
+def test_a_reply_that_is_no_reading_is_unknown_with_its_reason(replies: dict[str, str], code: str) -> None:
+    found = asked(lambda one: one.power(wavelength=633.0), *meter(Metered(replies), {"power": (0.0, 0.2)}))
+    assert (found.value, found.unknown) == (None, code), found
+
+
+def test_an_error_of_a_refused_wavelength_is_no_error_of_the_reading() -> None:
+    link = Metered({"SENS:CORR:WAV?": "1100.0"}, errors=['-222,"Data out of range"'])
+    found = asked(lambda one: one.power(wavelength=1550.0), *meter(link))
+    assert (found.value, found.settings) == (0.0012, {"wavelength": 1100.0})
+
+
+def test_a_plain_meter_is_not_asked_what_it_does_not_know() -> None:
+    link = Metered()
+    found = asked(
+        lambda one: one.power(wavelength=1550.0), *meter(link, settings={"wavelength": False, "error_queue": False})
+    )
+    assert (found.value, found.settings, link.sent, link.asked[1:]) == (0.0012, {}, [], ["MEAS:POW?"])
+
+
+@dataclass
+class Metered:
+    """A VISA link to a meter, with some other replies than usual, and what its error queue holds."""
+
+    replies: dict[str, str] = field(default_factory=dict)
+    errors: list[str] = field(default_factory=list)
+    sent: list[str] = field(default_factory=list)
+    asked: list[str] = field(default_factory=list)
+
+    def tell(self, command: str) -> None:
+        self.sent.append(command)
+
+    def ask(self, question: str) -> str:
+        self.asked.append(question)
+        if question == "SYST:ERR?" and self.errors:
+            return self.errors.pop(0)
+        usual = {"MEAS:POW?": "1.2E-3", "SYST:ERR?": '0,"No error"', "SENS:CORR:WAV?": "633.0"}
+        usual["*IDN?"] = "Acme,M1,S42,1.2"
+        reply = self.replies.get(question, usual[question])
+        if question == "SYST:ERR?":
+            self.replies.pop(question, None)
+        return reply
+
+    def failure(self) -> str:
+        return visa.queue_of(self.ask)
+
+
+def meter(link: Metered, limits: Any = None, settings: Any = None) -> tuple[scpi.PowerMeter, Bus[Any]]:
+    bus: Bus[Any] = Bus(lambda: link, lambda one: None)
+    entry = DeviceEntry(driver="scpi.meter", address={"visa": "x"}, limits=limits or {}, settings=settings or {})
+    return scpi.PowerMeter("it", entry, bus), bus
 
 
 @pytest.mark.parametrize(("kind", "off"), [(scpi.Laser, "OUTP OFF"), (scpi.Shutter, "OUTP OFF,(@7)")])

@@ -74,7 +74,8 @@ def test_a_device_is_given_once_however_many_files_there_are() -> None:
     more = DEVICES[: DEVICES.index("safety_inputs")]
     ((at, said, _),) = wrong(DEVICES, more)
     assert (at, said) == ("more.yaml:5:3", "p1_mount is given twice")
-    assert not wrong(DEVICES, more.replace("p1", "p2"))
+    other = more.replace("p1", "p2").replace('bus: "2"', 'bus: "3"').replace("11400517", "11400518")
+    assert not wrong(DEVICES, other)
 
 
 def test_numbers_go_to_the_device_and_back() -> None:

@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from pico.backends.attempt import Failed
+from pico.backends.conversions import conversion_of, mapped
 from pico.backends.emulated.world import EmulatedWorld
-from pico.backends.hardware.instruments import USUAL
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
+from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.declaration import Declaration
 from pico.model.quantities import Value, convert
-from pico.model.wiring import DeviceEntry, Wired
+from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
 
 if TYPE_CHECKING:
@@ -54,12 +56,16 @@ class OfArm:
 class OfPart:
     """A device of a component: each property of its driver is a tunable, in the device's own numbers."""
 
-    def __init__(self, world: EmulatedWorld, device: str, entry: DeviceEntry, component: str, kind: str) -> None:
+    def __init__(
+        self, world: EmulatedWorld, device: str, entry: DeviceEntry, component: str, about: Declaration
+    ) -> None:
         self._world, self._device, self._component = world, device, component
         self._kind = world.setup.type_of(component)
-        self._is: dict[str, tuple[str, Wired | None]] = {w.property: (t, w) for t, w in entry.map.items()}
-        if not entry.map and kind in USUAL:
-            self._is = {"open" if kind == "shutter" else "on" if kind == "lamp" else "emission": (USUAL[kind], None)}
+        setup = world.setup
+        self._is: dict[str, tuple[str, Conversion | None]] = {
+            wired.property: (name, conversion_of(setup, about, entry, component, name, wired))
+            for name, wired in mapped(setup, about, entry, component).items()
+        }
 
     def now(self) -> float:
         return self._world.now()
@@ -76,7 +82,7 @@ class OfPart:
         value = self._world.value(self._component, tunable)
         if tunable == "shutter":
             return value == "open"
-        return wired.to_device(value, self._unit(tunable)) if wired and _number(value) else value
+        return wired.to_device(value) if wired and _number(value) else value
 
     def write(self, what: str, value: Any) -> None:
         """Let a tunable be at the device's number."""
@@ -84,7 +90,7 @@ class OfPart:
         if tunable not in self._kind.tunables:
             self._world.remember(self._device, what, value)
             return
-        there: Value = wired.to_lab(value, self._unit(tunable)) if wired and _number(value) else value
+        there: Value = wired.to_lab(value) if wired and _number(value) else value
         if tunable == "shutter":
             there = "open" if value else "closed"
         self._world.set_value(self._component, tunable, there)
@@ -99,11 +105,11 @@ class OfPart:
             return None
         if reading is None or reading.array is not None:
             return reading.array if reading else None
+        if not _number(reading.value):
+            return None
+        wired = next((one for key, one in self._is.values() if key == name), None)
         unit = self._world.setup.measurables_of(self._component)[name].unit
-        return float(convert(f"{reading.value!r} {unit}", "W")) if _number(reading.value) else None
-
-    def _unit(self, tunable: str) -> str:
-        return self._kind.tunables[tunable].unit
+        return wired.to_device(reading.value) if wired else float(convert(f"{reading.value!r} {unit}", "W"))
 
 
 class OfCamera:

@@ -30,13 +30,13 @@ def brought_up(
     eyes.open()
 
     def behind(name: str, entry: DeviceEntry) -> Behind:
-        kind, of = driver(entry.driver).kind, entry.of or name
+        about, of = driver(entry.driver), entry.of or name
         if of in setup.lab.robots:
             return OfArm(world, of)
-        if kind == "safety input":
+        if about.kind == "safety input":
             return OfInput(world, name)
         if of in setup.lab.inventory:
-            return OfPart(world, name, entry, of, kind)
+            return OfPart(world, name, entry, of, about)
         return OfCamera(world, of, eyes) if of in setup.lab.cameras else Alone()
 
     paced = {name: _paced(entry, pace) for name, entry in entries.items()}

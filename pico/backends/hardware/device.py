@@ -26,6 +26,7 @@ from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult
+from pico.model.pose import Pose
 from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event
@@ -223,15 +224,19 @@ class HardwareDevice:
         """Return what is read now of a measurable, and keep nothing; raises PicoError."""
         from pico.backends.attempt import Failed
 
-        readers = Readers(self.setup, self.place.root, await self.links.instruments(), self.look)
+        readers = Readers(self.setup, self.place.root, await self.links.instruments(), self.look, poses=self._poses)
         try:
             return await readers.read(component, measurable)
         except Failed as exc:
             raise PicoError(exc.diagnostic) from exc
 
+    def _poses(self) -> dict[str, Pose]:
+        """Return where parts were seen last."""
+        return {name: last.pose for name, last in {**recall(self.place), **self._placed}.items()}
+
     async def _measured(self, component: str, measurable: str, busy: list[str] | None) -> Measurement:
         bench = await self.links.instruments()
-        readers = Readers(self.setup, self.place.root, bench, self.look, self._clock())
+        readers = Readers(self.setup, self.place.root, bench, self.look, self._clock(), self._poses)
         seen = await self._felt(bench, recall_hands(self.place))
         return await readers.measured(component, measurable, seen, busy)
 

@@ -7,19 +7,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, cast
 
+from pico.backends.conversions import conversion_of, mapped
 from pico.backends.hardware.settings import Settings
-from pico.backends.hardware.tunables import Driven, Emitting, Exposed, Lit, Motorized, Shut
+from pico.backends.hardware.tunables import Driven, Emitting, Exposed, Lit, Motorized, Shut, Tuned
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, PowerMeter, SafetyInput
+from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.declaration import Declaration
 from pico.model.setup import Setup
-from pico.model.wiring import DeviceEntry, SafetyEntry, Wired
+from pico.model.wiring import DeviceEntry, SafetyEntry
 
 if TYPE_CHECKING:
     from pico.drivers.registry import Buses
-
-USUAL = {"shutter": "shutter", "laser": "emission", "lamp": "illumination", "power meter": "power"}
-"""The tunable or measurable that a kind of instrument is where its `map` says nothing."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +27,7 @@ class Metered:
     """A power meter, and what a lab makes of the watts that it reads."""
 
     meter: PowerMeter
-    wired: Wired | None = None
+    conversion: Conversion
 
 
 @dataclass(eq=False)
@@ -69,10 +69,10 @@ class Instruments:
 
 
 def add(
-    setup: Setup, found: Instruments, name: str, entry: DeviceEntry, kind: str, one: Any, settings: Settings
+    setup: Setup, found: Instruments, name: str, entry: DeviceEntry, about: Declaration, one: Any, settings: Settings
 ) -> None:
     """Put an instrument where the lab has it."""
-    of = entry.of or name
+    of, kind = entry.of or name, about.kind
     found.all[name] = one
     if kind == "arm":
         found.arms[of] = one
@@ -86,21 +86,32 @@ def add(
             if tunable in setup.type_of(of).tunables:
                 kept = setup.type_of(of).tunables[tunable]
                 found.tunables[f"{of}.{tunable}"] = Exposed(one, settings, f"{of}.{tunable}", kept)
-    elif kind == "power meter":
-        for measurable, wired in _mapped(entry, kind):
-            found.meters[f"{of}.{measurable}"] = Metered(one, wired)
-    elif kind == "axis":
-        for tunable, wired in entry.map.items():
-            found.tunables[f"{of}.{tunable}"] = Motorized(one, wired, setup.type_of(of).tunables[tunable].unit)
     elif kind != "safety input":
-        for tunable, _ in _mapped(entry, kind):
-            address = f"{of}.{tunable}"
-            switches = {"shutter": Shut, "laser": Emitting}
-            found.tunables[address] = switches[kind](one) if kind in switches else Lit(one, settings, address)
+        for key, wired in mapped(setup, about, entry, of).items():
+            _put(
+                found,
+                f"{of}.{key}",
+                kind,
+                one,
+                wired.property,
+                conversion_of(setup, about, entry, of, key, wired),
+                settings,
+            )
 
 
-def _mapped(entry: DeviceEntry, kind: str) -> list[tuple[str, Wired | None]]:
-    return [*entry.map.items()] if entry.map else [(USUAL[kind], None)]
+def _put(
+    found: Instruments, address: str, kind: str, one: Any, prop: str, conversion: Conversion, settings: Settings
+) -> None:
+    """Put what sets or reads a tunable or measurable where the lab has it."""
+    if kind == "axis":
+        found.tunables[address] = Motorized(one, conversion)
+    elif kind == "power meter" and prop == "wavelength":
+        found.tunables[address] = Tuned(one, conversion)
+    elif kind == "power meter":
+        found.meters[address] = Metered(one, conversion)
+    else:
+        switches = {"shutter": Shut, "laser": Emitting}
+        found.tunables[address] = switches[kind](one) if kind in switches else Lit(one, settings, address)
 
 
 def wired(setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settings: Settings) -> Instruments:
@@ -116,7 +127,7 @@ def wired(setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settin
             wrong += exc.diagnostics
             continue
         found.maturity[name] = about.maturity
-        add(setup, found, name, entry, about.kind, one, settings)
+        add(setup, found, name, entry, about, one, settings)
     wiring = setup.wiring
     for name, said in (wiring.safety_inputs if wiring else {}).items():
         if said.device in found.all:

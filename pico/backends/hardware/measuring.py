@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterator
+from collections.abc import Awaitable, Callable, Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,14 +11,17 @@ from typing import TYPE_CHECKING
 from pico.backends.attempt import Failed
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.pictures import grayed
+from pico.backends.hardware.powers import Values, color_at, power_reading
 from pico.backends.measured import Reading, measurement
 from pico.diagnostics import PicoError, error
 from pico.kernels.frame import full_pixels
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed
+from pico.model.instruments.readout import unknown
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
-from pico.model.quantities import Value, convert
+from pico.model.pose import Pose
+from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.optics.sensing.sensor import Sensor
 
@@ -26,18 +29,21 @@ if TYPE_CHECKING:
     from pico.backends.sight import Look
 
 IMAGES = ("image", "dark")
+_NOTHING: Values = {}
 FULL = 255
 """What a pixel of a camera over the bench reads that has all the light that it can tell."""
 
 
 class Readers:
-    """What can be measured with the instruments of a bench; `look` looks through the cameras over it."""
+    """What can be measured with the instruments of a bench; `look` looks through the cameras over it, `poses` returns
+    where parts were seen last."""
 
     def __init__(
         self, setup: Setup, root: Path, bench: Instruments, look: Callable[[], Awaitable[Look]] | None = None,
-        at: str = "",
+        at: str = "", poses: Callable[[], Mapping[str, Pose]] = dict,
     ) -> None:  # fmt: skip
         self._setup, self._root, self._bench, self._look, self._at = setup, root, bench, look, at
+        self._poses = poses
 
     def measurables(self) -> Iterator[str]:
         """Yield what can be measured, as addresses."""
@@ -51,13 +57,14 @@ class Readers:
     ) -> Measurement:  # fmt: skip
         """Return what is measured of a component on the bench as it is `seen`; `busy` as in `measurement`. Raises
         Failed where nothing measures it, or that fails."""
-        known, reading = self._setup.measurable_of(component, name), await self.read(component, name)
+        known, reading = self._setup.measurable_of(component, name), await self.read(component, name, seen.known_values)
         made = (self._setup, self._root, seen, known, reading, component, name, busy, self._at)
         return await asyncio.to_thread(measurement, *made)
 
-    async def read(self, component: str, name: str) -> Reading:
-        """Return what is read of a measurable; raises Failed where nothing measures it, or that fails."""
-        reader = self._reader(component, name)
+    async def read(self, component: str, name: str, values: Values = _NOTHING) -> Reading:
+        """Return what is read of a measurable, with the tunables of the bench known to be at `values`; raises Failed
+        where nothing measures it, or that fails."""
+        reader = self._reader(component, name, values)
         if reader is None:
             text = f"no device of this bench measures {component}.{name}"
             raise Failed(error("unmeasured", text, address=f"{component}.{name}"))
@@ -92,7 +99,7 @@ class Readers:
         values = {"peak": float(counts.max()), "mean": float(counts.mean())}
         return Reading(values, counts, settings=settings, saturated=said)
 
-    def _reader(self, component: str, name: str) -> Callable[[], Awaitable[Reading]] | None:
+    def _reader(self, component: str, name: str, values: Values = _NOTHING) -> Callable[[], Awaitable[Reading]] | None:
         """Return what reads a measurable; None where nothing does."""
         bench, address = self._bench, f"{component}.{name}"
         over = component in self._setup.lab.cameras and component not in self._setup.lab.inventory
@@ -100,7 +107,7 @@ class Readers:
             (over and name == "frame" and component in bench.cameras, lambda: self._frame(component)),
             (not over and name == "pose" and self._marked(component), lambda: self._pose(component)),
             (address in bench.tunables, lambda: self._setpoint(address)),
-            (address in bench.meters, lambda: self._power(component, name)),
+            (address in bench.meters, lambda: self._power(component, name, values)),
             (component in bench.sensors and name in IMAGES, lambda: self.image(component)),
             (
                 component in bench.sensors and self._kernel(component, name) != "",
@@ -150,16 +157,21 @@ class Readers:
             raise Failed(error("unread", f"{address} can't be read back: nobody knows it", address=address))
         return Reading(live.value)
 
-    async def _power(self, component: str, name: str) -> Reading:
+    async def _power(self, component: str, name: str, values: Values) -> Reading:
         metered = self._bench.meters[f"{component}.{name}"]
-        watts, sigma = await metered.meter.power()
-        unit = self._setup.measurables_of(component)[name].unit
-
-        def in_lab(value: float) -> float:
-            return metered.wired.to_lab(value, unit) if metered.wired else float(convert(f"{value!r} W", unit))
-
-        spread = None if sigma is None else abs(in_lab(sigma) - in_lab(0.0))
-        return Reading(in_lab(watts), sigma=spread, saturated="")
+        own = self._bench.tunables.get(f"{component}.wavelength")
+        before = await own.read() if own is not None else None
+        color = await asyncio.to_thread(lambda: color_at(self._setup, values, self._poses(), component))
+        try:
+            readout = await metered.meter.power(wavelength=color.wavelength)
+        except PicoError as exc:
+            if exc.diagnostics[0].code != "device-limit":
+                raise
+            readout = unknown("W", "wavelength", why=exc.diagnostics[0].summary)
+        if own is not None and before is not None and before.status == "known" and before.value is not None:
+            await own.set(before.value)  # a measurement leaves the set-points of the lab as they were
+        responds = self._setup.type_of(component).tunables.get("wavelength")
+        return power_reading(readout, color, metered.conversion, responds)
 
     async def _computed(self, component: str, name: str) -> Reading:
         kernel = self._kernel(component, name)

@@ -6,11 +6,11 @@ from typing import Protocol
 
 from pico.backends.hardware.settings import Settings
 from pico.diagnostics import PicoError, error
-from pico.drivers.protocols import Axis, Camera, Instrument, Lamp, Laser, Shutter
+from pico.drivers.protocols import Axis, Camera, Instrument, Lamp, Laser, PowerMeter, Shutter
 from pico.model.catalog import Tunable
+from pico.model.instruments.conversion import Conversion
 from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
-from pico.model.wiring import Wired
 
 UNKNOWN = ObservedValue(status="unknown")
 _NO_AXIS = PicoError(error("no-axis", "it has no axis that could be homed"))
@@ -42,21 +42,40 @@ class Motorized:
 
     moves = True
 
-    def __init__(self, axis: Axis, wired: Wired, unit: str) -> None:
-        self.instrument, self._wired, self._unit = axis, wired, unit
+    def __init__(self, axis: Axis, conversion: Conversion) -> None:
+        self.instrument, self._conversion = axis, conversion
 
     async def read(self) -> ObservedValue:
         at = await self.instrument.position()
-        return UNKNOWN if at is None else ObservedValue(value=self._lab(at))
+        return UNKNOWN if at is None else ObservedValue(value=self._conversion.to_lab(at))
 
     async def set(self, value: Value) -> Value:
-        return self._lab(await self.instrument.move_to(self._wired.to_device(float(value), self._unit)))
+        return self._conversion.to_lab(await self.instrument.move_to(self._conversion.to_device(float(value))))
 
     async def home(self) -> Value:
-        return self._lab(await self.instrument.home())
+        return self._conversion.to_lab(await self.instrument.home())
 
-    def _lab(self, value: float) -> float:
-        return self._wired.to_lab(value, self._unit)
+
+class Tuned:
+    """The wavelength for which a power meter corrects its reading."""
+
+    moves = False
+
+    def __init__(self, meter: PowerMeter, conversion: Conversion) -> None:
+        self.instrument, self._conversion = meter, conversion
+
+    async def read(self) -> ObservedValue:
+        found = (await self.instrument.wavelength()).value
+        return UNKNOWN if not isinstance(found, int | float) else ObservedValue(value=self._conversion.to_lab(found))
+
+    async def set(self, value: Value) -> Value:
+        found = await self.instrument.set_wavelength(self._conversion.to_device(float(value)))
+        if not isinstance(found.value, int | float):
+            raise PicoError(error("device-reply", f"the meter does not tell its wavelength: {found.why}"))
+        return self._conversion.to_lab(found.value)
+
+    async def home(self) -> Value:
+        raise _NO_AXIS
 
 
 class Shut:

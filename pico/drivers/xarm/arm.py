@@ -21,7 +21,7 @@ from pico.drivers.xarm.faults import clearable, told
 from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
 from pico.drivers.xarm.path import Path, checked
-from pico.drivers.xarm.settings import FENCE, PROPERTIES, differing, settings
+from pico.drivers.xarm.settings import FENCE, PROPERTIES, SETTINGS, differing, settings
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
 from pico.model.wiring import DeviceEntry
 
@@ -294,7 +294,10 @@ DRIVER = Driver(
         "port": f"its control port, {CONTROL_PORT} as sold",
     },
     bus=("host",),
+    places=(),
     properties=PROPERTIES,
+    settings=SETTINGS,
+    one_identity=True,
     needs=("xarm", "xarm"),
     load=library,
     maturity="emulated",

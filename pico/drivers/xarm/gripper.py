@@ -16,6 +16,7 @@ from pico.drivers.xarm.arm import DRIVER as ARM
 from pico.drivers.xarm.faults import gripper_told
 from pico.drivers.xarm.library import imported
 from pico.drivers.xarm.link import Link, identity
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
 PULSES = 850
@@ -131,7 +132,10 @@ DRIVER = Driver(
     alive=ARM.alive,
     address=ARM.address,
     bus=ARM.bus,
+    places=(),
     properties={},
+    settings={"stroke": Setting(default=_STROKE, unit="mm", range=(1, 500), about="how far its fingers open")},
+    one_identity=True,
     needs=ARM.needs,
     load=ARM.load,
     maturity="emulated",

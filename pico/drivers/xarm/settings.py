@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 from pico.motion.xarm7 import LIMITS
 
@@ -52,20 +53,14 @@ class XArmSettings:
 
 def settings(name: str, entry: DeviceEntry) -> XArmSettings:
     """Return the settings of an entry; raises PicoError with all that is wrong with them."""
-    said = dict(entry.settings)
-    numbers = {key: said.pop(key, default) for key, default in _NUMBERS.items()}
-    tool, follow = str(said.pop("tool", "gripper")), str(said.pop("follow", "set-points"))
-    wrong = [f"`{key}` is no setting of an xArm" for key in said]
-    wrong += [f"`{key}` is a number" for key, v in numbers.items() if not isinstance(v, int | float)]
-    if tool not in _TOOLS:
-        wrong.append(f"`tool` is one of {', '.join(_TOOLS)}")
-    if follow not in ("set-points", "moves"):
-        wrong.append("`follow` is set-points or moves")
-    if numbers["sensitivity"] not in range(LEAST_SENSITIVITY, 6):
-        wrong.append(f"`sensitivity` is {LEAST_SENSITIVITY} to 5: with less an arm does not notice what it hits")
+    said = {**{key: one.default for key, one in SETTINGS.items()}, **entry.settings}
+    wrong = [f"`{key}` is no setting of an xArm" for key in said if key not in SETTINGS]
+    wrong += [f"`{key}` {text}: {one.about}" for key, one in SETTINGS.items() if (text := one.complaint(said[key]))]  # type: ignore[arg-type]
     if wrong:
         raise PicoError([error("device", f"{name}: {text}", address=name) for text in wrong])
-    n = {key: float(value) for key, value in numbers.items()}
+    tool, follow = str(said["tool"]), str(said["follow"])
+    numbers = {key: said[key] for key in _NUMBERS}
+    n = {key: float(value or 0.0) for key, value in numbers.items()}
     limits = entry.limits
     return XArmSettings(
         sensitivity=int(n["sensitivity"]),
@@ -88,12 +83,47 @@ def settings(name: str, entry: DeviceEntry) -> XArmSettings:
     )
 
 
+def _unit_of(key: str) -> str:
+    if key == "load":
+        return "kg"
+    if key.startswith(("load_", "tool_")):
+        return "deg" if key.rpartition("_")[2] in ("roll", "pitch", "yaw") else "mm"
+    return ""
+
+
 _NUMBERS: Mapping[str, float] = (
     {"sensitivity": LEAST_SENSITIVITY, "load": 0.0, "pace": 1.0}
     | {f"{what}_{axis}": 0.0 for what in ("load", "tool") for axis in "xyz"}
     | {f"tool_{angle}": 0.0 for angle in ("roll", "pitch", "yaw")}
     | {"gravity_x": 0.0, "gravity_y": 0.0, "gravity_z": -1.0}
 )
+
+
+SETTINGS: Mapping[str, Setting] = {
+    **{
+        key: Setting(default=default, unit=_unit_of(key), about=f"`{key}` as the control box takes it")
+        for key, default in _NUMBERS.items()
+    },
+    "sensitivity": Setting(
+        default=LEAST_SENSITIVITY,
+        range=(LEAST_SENSITIVITY, 5),
+        kind=int,
+        about="of the collision detection: with less an arm does not notice what it hits",
+    ),
+    "pace": Setting(
+        default=1.0, range=(0.01, 100), about="how many times faster than real the clock of an emulated arm is"
+    ),
+    "tool": Setting(
+        kind=str, default="gripper", choices=tuple(_TOOLS), about="the shape of the tool, for self-collision"
+    ),
+    "follow": Setting(
+        kind=str,
+        default="set-points",
+        choices=("set-points", "moves"),
+        about="by set-points of PICO, or moves of the box",
+    ),
+}
+"""What `settings` of an arm may say."""
 
 
 def _range(asked: tuple[float, float] | None, usual: tuple[float, float]) -> tuple[float, float]:

@@ -6,6 +6,8 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, did_you_mean, error
+from pico.manifest.checks.addresses import check_addresses
+from pico.manifest.checks.devices import check_entry, declaration, declared
 from pico.manifest.text.names import check_names
 from pico.manifest.text.places import find, where, where_key
 from pico.manifest.text.tree import Document
@@ -33,6 +35,7 @@ def whole_wiring(read: Sequence[tuple[Document, Wiring]], setup: Setup) -> tuple
         )  # fmt: skip
     for document, wiring in read:
         found += _safety(document, wiring, whole, setup)
+    found += check_addresses(declared(whole.devices), {n: d for d, wiring in read for n in wiring.devices})
     return whole, found
 
 
@@ -69,6 +72,8 @@ def _device(
             hint = did_you_mean(chosen[:40], known) or "a plug-in that brings it is not installed"
             at = where(document, "devices", name, key)
             yield error(key, f"there is no {key} `{chosen[:40]}`", hint=hint, source=at)
+    if (about := declaration(entry.driver)) is not None:
+        yield from check_entry(document, name, entry, about, setup)
     lab, owner = setup.lab, entry.of or name
     parts = [*lab.inventory, *lab.robots, *lab.cameras]
     if entry.of is not None and owner not in parts:

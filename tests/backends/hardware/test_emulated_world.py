@@ -11,6 +11,7 @@ from emulated_lab import wired_lab
 from pico.backends.emulated.behind import OfPart
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.store import world_path
+from pico.drivers.registry import driver
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.arms import ArmMotion
@@ -104,14 +105,17 @@ def test_the_clock_goes_at_the_pace_of_the_world(setup: Setup, tmp_path: Path) -
 def test_a_device_has_its_own_numbers_of_a_tunable_and_keeps_what_it_was_told(setup: Setup, tmp_path: Path) -> None:
     assert setup.wiring is not None
     world, entry = EmulatedWorld(setup, bench_at(tmp_path, "emulated")), setup.wiring.devices["ly_150_y"]
-    behind = OfPart(world, "ly_150_y", entry, "ly_150", "axis")
-    behind.write("angle", 200.0)
+    behind = OfPart(world, "ly_150_y", entry, "ly_150", driver(entry.driver))
+    behind.write("position", 2.2)
     assert world.value("ly_150", "stage_y") == pytest.approx(0.2)
-    assert behind.read("angle") == pytest.approx(200.0)
+    assert behind.read("position") == pytest.approx(2.2)
     assert behind.read("stuck") is None
     behind.write("jog", 143361)
-    again = OfPart(EmulatedWorld(setup, bench_at(tmp_path, "emulated")), "ly_150_y", entry, "ly_150", "axis")
+    again = OfPart(
+        EmulatedWorld(setup, bench_at(tmp_path, "emulated")), "ly_150_y", entry, "ly_150", driver(entry.driver)
+    )
     assert again.read("jog") == 143361
-    shutter = OfPart(world, "laser_shutter", setup.wiring.devices["laser_shutter"], "laser", "shutter")
+    box = setup.wiring.devices["laser_shutter"]
+    shutter = OfPart(world, "laser_shutter", box, "laser", driver(box.driver))
     shutter.write("open", True)
     assert world.value("laser", "shutter") == "open" and shutter.read("open") is True

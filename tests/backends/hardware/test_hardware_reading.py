@@ -22,6 +22,7 @@ from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.drivers.registry import Buses, driver
+from pico.model.instruments.conversion import conversion
 from pico.model.observation import Observation
 from pico.model.pose import Pose
 from pico.model.setup import Setup
@@ -57,7 +58,7 @@ def seen_of(
     bench, park = Instruments(), setup.lab.robots["arm1"].park_joints
     bench.arms["arm1"] = One(arm or ArmState(joints=park, age=0.1, moving=False, enabled=True))  # type: ignore[assignment]
     bench.grippers["arm1"] = One(Grip(width=width, holds=None))  # type: ignore[assignment]
-    bench.tunables["p1.angle"] = Motorized(One(angle), Wired(property="angle"), "deg")  # type: ignore[arg-type]
+    bench.tunables["p1.angle"] = Motorized(One(angle), conversion(Wired(property="angle"), "deg", "deg"))  # type: ignore[arg-type]
     entry = SafetyEntry(kind="curtain", device="box")
     state = curtain if isinstance(curtain, PicoError) else SafetyState(safe=curtain, age=0.0)
     bench.inputs["curtain"] = entry, One(state)  # type: ignore[assignment]

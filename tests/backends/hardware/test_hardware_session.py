@@ -24,6 +24,7 @@ from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model import primitive
+from pico.model.instruments.conversion import conversion
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
@@ -205,7 +206,7 @@ def session(
     shutter = bench.shutter = Shutter()  # type: ignore[attr-defined]
     instruments.tunables["laser.shutter"] = Shut(shutter)  # type: ignore[arg-type]
     if axis is not None:
-        instruments.tunables["p1.angle"] = Motorized(axis, Wired(property="angle"), "deg")  # type: ignore[arg-type]
+        instruments.tunables["p1.angle"] = Motorized(axis, conversion(Wired(property="angle"), "deg", "deg"))  # type: ignore[arg-type]
 
     async def none(*_: Any) -> Any:
         return None

@@ -24,6 +24,7 @@ from pico.diagnostics import ExitCode, PicoError, error
 from pico.drivers.protocols import SafetyState
 from pico.model.catalog import Axis as AxisOf
 from pico.model.catalog import Tunable
+from pico.model.instruments.conversion import conversion
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
@@ -217,7 +218,7 @@ def test_a_lamp_is_as_it_was_told_last_and_unknown_at_first(tmp_path: Path, want
 
 def test_an_axis_is_read_and_set_in_the_units_of_the_lab() -> None:
     axis = Device(None)
-    one = Motorized(axis, Wired(property="angle", scale=2.0, offset=10.0), "deg")  # type: ignore[arg-type]
+    one = Motorized(axis, conversion(Wired(property="angle", scale=2.0, offset=10.0), "deg", "deg"))  # type: ignore[arg-type]
     assert asyncio.run(one.read()).status == "unknown"
     assert asyncio.run(one.set(50.0)) == 50.0 and axis.told == [20.0]
     assert asyncio.run(one.read()).value == 50.0 and asyncio.run(one.home()) == 10.0
@@ -241,7 +242,7 @@ def test_only_axes_have_a_home_and_move(one: Any, tmp_path: Path) -> None:
         with pytest.raises(PicoError, match="no axis"):
             asyncio.run(other.home())
         assert not other.moves
-    assert Motorized(Device(), Wired(property="angle"), "deg").moves  # type: ignore[arg-type]
+    assert Motorized(Device(), conversion(Wired(property="angle"), "deg", "deg")).moves  # type: ignore[arg-type]
 
 
 # what stops short of its goal
@@ -262,7 +263,7 @@ def drive(setup: Setup, device: Device, operation: Operation) -> tuple[Mapping[s
     async def pause(seconds: float) -> None:
         paused.append(seconds)
 
-    wired = Instruments(tunables={"holder.angle": Motorized(device, Wired(property="angle"), "deg")})  # type: ignore[arg-type]
+    wired = Instruments(tunables={"holder.angle": Motorized(device, conversion(Wired(property="angle"), "deg", "deg"))})  # type: ignore[arg-type]
     return asyncio.run(driven(setup, wired, operation, pause)), paused
 
 

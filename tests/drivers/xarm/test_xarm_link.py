@@ -148,10 +148,10 @@ def test_without_the_vendors_library_its_extra_is_named(rig: Rig, monkeypatch: p
     ("said", "word"),
     [
         ({"sensitivity": 0}, "does not notice what it hits"),
-        ({"sensitivity": "high"}, "is a number"),
+        ({"sensitivity": "high"}, "is a whole number"),
         ({"speed": 3}, "`speed` is no setting"),
         ({"tool": "hammer"}, "`tool` is one of"),
-        ({"follow": "me"}, "set-points or moves"),
+        ({"follow": "me"}, "set-points, moves"),
     ],
 )
 def test_settings_that_make_no_sense_are_told(said: dict[str, Any], word: str) -> None:

@@ -1,0 +1,96 @@
+"""Whether the entry of a device is what its driver takes: address, limits, settings, properties, units of its map."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+
+from pico.diagnostics import Diagnostic, error
+from pico.manifest.text.places import where, where_key
+from pico.manifest.text.tree import Document
+from pico.model.instruments.conversion import same_dimension
+from pico.model.instruments.declaration import Declaration
+from pico.model.quantities import QuantityError, dimension
+from pico.model.setup import Setup
+from pico.model.wiring import DeviceEntry, Wired
+
+_AT_VALUE = ("address", "settings", "driver", "map")
+"""What is wrong with one of these stands at its value, and not at its key."""
+
+
+@cache
+def declaration(name: str) -> Declaration | None:
+    """Return what a driver declares of itself; None for one that is not installed, or can't be imported."""
+    from importlib.metadata import entry_points
+
+    for entry in entry_points(group="pico.drivers", name=name):
+        try:
+            found = entry.load()
+        except Exception:  # what a plug-in raises; whoever opens it is told
+            return None
+        return found if isinstance(found, Declaration) else None
+    return None
+
+
+def check_entry(
+    document: Document, name: str, entry: DeviceEntry, about: Declaration, setup: Setup
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """Yield what is wrong with a device's entry by what its driver declares, each at its place."""
+    for one in about.complaints(entry):
+        path = ("devices", name, *one.key.split("."))
+        missing = one.text.startswith(f"`{entry.driver}` has no") and path[2] != "map"
+        at = where_key(document, *path) if missing or path[2] not in _AT_VALUE else where(document, *path)
+        yield error("device", f"{name}: {one.text}", hint=one.hint, source=at)
+    owner = entry.of or name
+    if owner in setup.lab.inventory:
+        for key, wired in entry.map.items():
+            if wired.property in about.properties:
+                yield from _mapped(document, name, entry, about, setup, owner, key, wired)
+
+
+def _mapped(
+    document: Document, name: str, entry: DeviceEntry, about: Declaration, setup: Setup, owner: str, key: str,
+    wired: Wired,
+) -> Iterator[Diagnostic]:  # fmt: skip
+    kind, at = setup.type_of(owner), where(document, "devices", name, "map", key)
+    tunable = kind.tunables.get(key)
+    units = {n: t.unit for n, t in kind.tunables.items()} | {n: m.unit for n, m in kind.measurables.items()}
+    own = about.unit(entry, wired.property)
+    if key not in units:
+        return  # told already
+    if about.kind == "axis" and tunable is not None and tunable.datatype != "float":
+        text = f"{owner}.{key} is a {tunable.datatype}, and {name} is an axis: it drives to numbers"
+        yield error("value", text, hint="map a tunable of datatype float", source=at)
+    elif own and units[key] and (wrong := _unit(wired, own, units[key], f"{owner}.{key}", entry.driver)):
+        yield error("unit", wrong[0], hint=wrong[1], source=at)
+
+
+def _unit(wired: Wired, own: str, unit: str, address: str, driver: str) -> tuple[str, str] | None:
+    """Return what is wrong with the units of a map, and a hint; None if nothing is."""
+    what = f"{wired.property} of {driver}"
+    if wired.unit is not None and not same_dimension(wired.unit, unit):
+        return None  # told already, at the unit
+    if same_dimension(own, unit):
+        if wired.unit is None and wired.scale != 1 and own != unit:
+            text = f"{address} is in {unit}, {what} in {own}, and it is not stated which of them `scale` leads to"
+            return text, f"state it: `unit: {unit}`, or `unit: {own}`; without `scale` PICO converts by itself"
+        return None
+    text = f"{address} is in {unit}, of {_dimension(unit)}, and {what} in {own}, of {_dimension(own)}"
+    if wired.unit is not None and wired.scale != 1:
+        return None  # so many of the one a unit of the other, as the lab says
+    axes = {_dimension(own), _dimension(unit)} == {"length", "angle"}
+    does = f"; if a mechanism makes the one of the other, state `scale` in {unit} per {own}, and `unit: {unit}`"
+    return text, ("choose a driver of a rotation mount or of a linear stage" if axes else "map another property") + does
+
+
+def _dimension(unit: str) -> str:
+    try:
+        return dimension(unit)
+    except QuantityError:
+        return unit
+
+
+def declared(devices: Mapping[str, DeviceEntry]) -> dict[str, tuple[DeviceEntry, Declaration]]:
+    """Return the devices whose drivers declare themselves, with what these do."""
+    found = ((name, entry, declaration(entry.driver)) for name, entry in devices.items())
+    return {name: (entry, about) for name, entry, about in found if about is not None}

@@ -1,0 +1,1 @@
+"""Instruments as data: what drivers declare, what replies mean, how numbers are converted."""
