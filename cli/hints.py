@@ -66,7 +66,8 @@ def _flagged(rest: str, flags: Iterable[str]) -> str:
     names = plain(words, SHARED)
     if "--help" in words or not names or names[0] in NOWHERE or names[0] not in files():
         return f"`pico{rest}`"
-    lab_alone = bool({" ".join(names[:1]), " ".join(names[:2])} & FILES) or any(one in words for one in _BENCH)
+    lab_alone = bool({" ".join(names[:1]), " ".join(names[:2])} & FILES) and "--journal" not in words
+    lab_alone = lab_alone or any(one in words for one in _BENCH)
     own = [flag for flag in flags if not _left_out(flag.partition(" ")[0], words, lab_alone)]
     return f"`pico{''.join(f' {flag}' for flag in own)}{rest}`"
 

@@ -387,6 +387,22 @@ def test_a_journal_that_is_no_database_is_made_of_commits(committed: Path, pico:
         assert [run.run for run in journal.runs()][: len(runs)] == runs
 
 
+def test_a_damaged_file_of_another_bench_is_mended_by_what_is_printed(lab: Path, pico: Pico) -> None:
+    """The chosen bench is the simulator; what doctor says of the emulated one must reach that one."""
+    folder = lab / ".pico/benches/emulated"
+    shutil.copytree(lab / ".pico/benches/sim", folder)
+    (folder / "lab.json").write_text("{")
+    (folder / "journal.sqlite").write_bytes(b"x" * 4096)
+    said = pico("doctor")
+    assert said.code == 1
+    assert "`pico --bench emulated doctor --journal`" in said.err
+    assert "`pico --bench emulated bench update`" in said.err
+    mended = pico("--bench", "emulated", "doctor", "--journal", "--yes")
+    assert mended.code == 0 and "journal" not in pico("doctor").err
+    assert (folder / "journal.sqlite.damaged").exists()
+    assert not (lab / ".pico/benches/sim/journal.sqlite.damaged").exists()
+
+
 def test_a_journal_of_version_3_is_lifted_and_its_records_count_without_checksums(lab: Path, pico: Pico) -> None:
     path = lab / ".pico/benches/sim/journal.sqlite"
     with closing(sqlite3.connect(path)) as db:

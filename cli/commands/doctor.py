@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,6 +11,7 @@ import typer
 
 from pico.diagnostics import ExitCode, PicoError
 
+from ..hints import with_flags
 from ..session import Session
 from ..views import doctor as view
 
@@ -60,6 +63,12 @@ def _journal(session: Session, yes: bool) -> int:
     return ExitCode.CHANGES if found.damaged and found.aside is None else ExitCode.DONE
 
 
+def _reaching(root: Path, one: Diagnostic) -> Diagnostic:
+    """Return what is wrong with a file, with a hint that reaches the bench that the file is of, whichever is chosen."""
+    bench = re.search(rf"{re.escape(str(root))}/\.pico/benches/([^/\s]+)/", one.summary)
+    return replace(one, hint=with_flags(one.hint, [f"--bench {bench[1]}"])) if bench and one.hint else one
+
+
 def _kept(folder: Path) -> tuple[Diagnostic, ...]:
     """Return what is wrong with what PICO keeps of the lab around a folder: damaged files, and benches that are gone,
     as Git's own folder knows."""
@@ -74,7 +83,7 @@ def _kept(folder: Path) -> tuple[Diagnostic, ...]:
         root = find_lab(folder)
     except PicoError:  # which is said already
         return ()
-    found = damaged_files(root, Log.read)
+    found = tuple(_reaching(root, one) for one in damaged_files(root, Log.read))
     try:
         lost = tuple(one for name in shipped() if (one := lost_bench(BenchPlace(root, name))))
     except PicoError:  # what Git's own folder knows is damaged, and told

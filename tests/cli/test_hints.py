@@ -78,7 +78,8 @@ def test_every_command_that_depends_on_the_bench_gets_the_flags() -> None:
             assert got == f"Go on: `pico {command}`.", where
             continue
         own = {flag for flag in ("-C", "--backend", "--emulate", "--bench") if flag in command.split()}
-        bench = not own - {"-C"} and first not in FILES and two not in FILES
+        of_bench = (first not in FILES and two not in FILES) or "--journal" in command.split()
+        bench = of_bench and not own - {"-C"}
         wanted = [*(FLAGS[:1] if "-C" not in own else ()), *(FLAGS[1:] if bench else ())]
         assert got == f"Go on: `{' '.join(['pico', *wanted, command])}`.", where
 
