@@ -112,6 +112,8 @@ class StateFile:
             if hashlib.sha256(data[checked.end() :]).hexdigest().encode() != checked[1]:
                 raise ValueError("its checksum does not match what it holds")
             document = json.loads(b"{" + data[checked.end() :])
+        elif sum(one != other for one, other in zip(data, b'{"sha256":', strict=False)) <= 1 < len(data):
+            raise ValueError("the line with its checksum is damaged")
         else:
             document = json.loads(data)
         if isinstance(document, dict):
