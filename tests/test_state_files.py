@@ -447,6 +447,16 @@ def test_a_deleted_journal_of_a_run_that_was_killed_is_made_of_commits(committed
     assert done.data["from_commits"] and pico("apply", "e1", "--yes").code == 0
 
 
+def test_a_deleted_journal_is_missed_whatever_is_asked(committed: Path, pico: Pico) -> None:
+    path = committed / ".pico/benches/sim/journal.sqlite"
+    path.unlink()
+    for words in ("resume --yes", "undo --yes", "set p1 angle=4 --yes"):
+        said = pico(*words.split())
+        assert said.code == 1 and "the file is gone" in said.err and "`pico doctor --journal`" in said.err, said.err
+    assert pico("doctor", "--journal", "--yes").code == 0 and pico("doctor").code == 0
+    assert pico("set", "p1", "angle=4", "--yes").code == 0
+
+
 def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path) -> None:
     old, new = tmp_path / "old.sqlite", tmp_path / "new.sqlite"
     with closing(Journal(old)) as journal:

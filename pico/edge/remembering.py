@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from pico.base.state_files import JOURNAL, RUN_MARK
 from pico.disk import write_whole
 from pico.places.bench import BenchPlace
+from pico.runs.storage.change_count import ChangeCount
 
 if TYPE_CHECKING:
     from pico.model.trace.run import RunOutcome
@@ -44,11 +45,16 @@ class Remembering:
         """The journal, to be read from any disk; None where there was none yet. Each thread has a connection of its
         own: the loop of the edge reads, too."""
         here = threading.get_ident()
-        if here not in self._memories and self.path.exists():
+        if here not in self._memories and self._is_expected:
             from pico.runs.journal import Journal
 
             self._memories[here] = Journal(self.path, self._clock, looking=True)
         return self._memories.get(here)
+
+    @property
+    def _is_expected(self) -> bool:
+        """Whether there is a journal, or what lies beside it says that there was one."""
+        return self.path.exists() or self.unended() is not None or ChangeCount(self.path).least() > 0
 
     @property
     def _mark(self) -> Path:
