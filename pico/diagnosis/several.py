@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 
+from pico.diagnosis.deepening import Deepening
 from pico.diagnosis.explanations import PLAIN, Changed, Explanation, fitted, roughly
 from pico.diagnosis.modelled import Modelled
+from pico.diagnosis.refining import refine
 from pico.diagnosis.weighing import modes
 
 MOST = 6
@@ -35,9 +37,12 @@ RIVALS = 8
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, FURTHER, COMPARED = 120, 420, 180
+SEARCHED, FURTHER, DEEPEST, COMPARED = 120, 200, 420, 180
 """How often all quantities are asked of the ray model before the search ends; before it ends if the causes leave
-something; and before half as many alternatives are compared."""
+something; before a deeper search ends then; and before half as many alternatives are compared."""
+REFINED, DEEPER = 3, 3
+"""How many explanations a deeper search begins with; how many alternatives to each of its causes that leave something
+are refined, and not only one."""
 ALIKE = 1.0
 """Standard deviations up to which two causes that dim light dim the same."""
 MISFIT = 4.0
@@ -53,6 +58,7 @@ class Search:
     pool: dict[tuple[int, ...], Explanation] = field(default_factory=dict)
     _tried: set[tuple[tuple[int, tuple[int, ...]], ...]] = field(default_factory=set)
     _first: int = 0
+    _deep: bool = False
 
     def __post_init__(self) -> None:
         self._first = self.model.asked
@@ -65,6 +71,51 @@ class Search:
     def best(self) -> Explanation:
         """Return the likeliest explanation: without causes where nothing unusual is the likeliest."""
         self._grown([self._fit(Explanation())])
+        self._better()
+        if self._misses(self._first_of()):
+            self._deep = True
+            for one in self._by_cost()[:REFINED]:
+                self._refine(one)
+            self._better()
+        if self._misses(self._first_of()):
+            self._deepening().grow([Explanation(), *self._by_cost()[:REFINED]])
+            self._better()
+        return self._needed(self._first_of())
+
+    def _needed(self, one: Explanation) -> Explanation:
+        """Return an explanation without those of its causes that are not needed: those that do nothing which would
+        show, and, as a search that was cut short did not ask it, any other."""
+        order = sorted(range(len(one.numbers)), key=lambda k: not self._idle(one, k))
+        for cause in [one.numbers[k] for k in order]:
+            number = one.numbers.index(cause)
+            if self._idle(one, number) or SEARCHED < self._asked < DEEPEST:
+                fewer = self._refine(one.without(number))
+                one = fewer if fewer.odds > one.odds else one
+        return one
+
+    def _first_of(self) -> Explanation:
+        return max(self.pool.values(), key=lambda one: one.odds)
+
+    def _by_cost(self) -> list[Explanation]:
+        return sorted((one for one in self.pool.values() if one.numbers), key=self._deepening().cost)
+
+    def _deepening(self) -> Deepening:
+        return Deepening(self.what, self.model.lowest, self._refine, self._enough)
+
+    def _enough(self, one: Explanation) -> bool:
+        """Return whether a deeper search ends: with an explanation that leaves nothing, or with its last question."""
+        return self._asked > DEEPEST or not self._misses(one)
+
+    def _refine(self, one: Explanation) -> Explanation:
+        """Return an explanation at sizes that a descent from its own leads to, if these are better than known ones."""
+        found = refine(self.what, self.model, one)
+        known = self.pool.get(one.key)
+        if known is None or found.odds > known.odds:
+            self.pool[one.key] = found
+        return found
+
+    def _better(self) -> None:
+        """Replace causes of the likeliest explanations, or leave them out, as long as that makes them likelier."""
         done: set[tuple[int, ...]] = set()
         for _ in range(STARTS):
             first = max(self.pool.values(), key=lambda one: one.odds)
@@ -75,7 +126,6 @@ class Search:
             done.add(start.key)
             if (other := self._bettered(start)) is not None and other.odds > first.odds:
                 self._grown([other])
-        return max(self.pool.values(), key=lambda one: one.odds)
 
     def close(self, best: Explanation) -> tuple[Explanation, ...]:
         """Return the explanations that are as good as the best, with one of its causes replaced or otherwise, that
@@ -86,9 +136,14 @@ class Search:
             likely = [one for one in likely if one.odds > likely[0].odds - RARER - UNSURE]
             traced = [one for one in likely if not self._plain(one.numbers[-1])]
             traced = traced[: RIVALS if self._asked < COMPARED else RIVALS // 2]
+            spare = DEEPER if self._deep else 1
             for one in likely:
-                if one in traced or self._plain(one.numbers[-1]):
-                    self._fit(one, best.odds)
+                if one not in traced and not self._plain(one.numbers[-1]):
+                    continue
+                rival = self._fit(one, best.odds, again=True)
+                if spare and self._misses(rival) and self._asked < DEEPEST:
+                    self._refine(rival)
+                    spare -= 1
         others = [one for one in self.pool.values() if one.key != best.key and self._as_good(one, best)]
         return best, *sorted(others, key=lambda one: -one.odds)
 
@@ -106,12 +161,13 @@ class Search:
         """Return whether a cause needs no light traced."""
         return all(w.what in PLAIN for w in self.what.responses[number].cause.ways)
 
-    def _fit(self, one: Explanation, least: float = -math.inf) -> Explanation:
-        """Return an explanation fitted by the whole model, or the better one of the same causes."""
+    def _fit(self, one: Explanation, least: float = -math.inf, again: bool = False) -> Explanation:
+        """Return an explanation fitted by the whole model, or the better one of the same causes. `again`: fitted anew
+        if it looks better than a known one."""
         sides = [tuple(np.sign(f.size).astype(int).tolist()) for f in one.found]
         tried = tuple(sorted(zip(one.numbers, sides, strict=True)))
         known = self.pool.get(one.key)
-        if known is None or tried not in self._tried:
+        if known is None or tried not in self._tried or (again and one.odds > known.odds + UNSURE):
             self._tried.add(tried)
             found = fitted(self.what, self.model, one, least)
             if known is None or found.odds > known.odds:
@@ -189,6 +245,11 @@ class Search:
             if (other := self._fit(one, best.odds)).odds > best.odds:
                 return other
         return None
+
+    def _idle(self, one: Explanation, number: int) -> bool:
+        """Return whether one of the causes of an explanation does nothing that would show."""
+        noise = np.sqrt(np.diagonal(self.what.usual))
+        return len(one.found) > 1 and bool((np.abs(one.found[number].moved) < noise).all())
 
     def _merged(self, best: Explanation) -> Iterator[Explanation]:
         """Yield explanations with one cause that dims light in place of two."""
