@@ -53,7 +53,7 @@ class Deepening:
     def cost(self, one: Explanation) -> float:
         """Return the negative logarithm of the odds of an explanation, its residuals squeezed."""
         noise = np.sqrt(np.diagonal(self.what.usual) + (self.what.exact * self.what.d) ** 2)
-        return self._cost(residuals(self.what, self.lowest, one.whole, noise)) + sum(
+        return float(self._cost(residuals(self.what, self.lowest, one.whole, noise))) + sum(
             self._dear(n, f.size) for n, f in zip(one.numbers, one.found, strict=True)
         )
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 
@@ -39,7 +40,7 @@ def doubted(
     return (*kept, rest) if rest else tuple(kept)
 
 
-def _reach(what: Changed, part: str) -> np.ndarray:
+def _reach(what: Changed, part: str) -> Any:
     """Return which readings (n,) a part could change so that it shows."""
     noise = np.sqrt(np.diagonal(what.usual))
     own = [r.moved for r in what.responses if r.cause.part == part]
