@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from pico.diagnosis.deepening import Deepening
-from pico.diagnosis.explanations import PLAIN, Changed, Explanation, fitted, roughly
+from pico.diagnosis.explanations import PLAIN, Changed, Explanation, evaluate, fitted, roughly
 from pico.diagnosis.modelled import Modelled
 from pico.diagnosis.refining import refine
 from pico.diagnosis.weighing import modes
@@ -32,14 +32,17 @@ RARER, LEFT = 10.0, 4.0
 """Up to which difference of it one of as many causes is, if it leaves of all changes no more than so many variances."""
 UNSURE = 4.0
 """By how much less likely an explanation may look before it is fitted by the whole model."""
-RIVALS = 8
-"""How many alternatives to each cause are fitted by the whole model, the likeliest."""
+SCREENED, RIVALS = 30, 8
+"""How many alternatives to each cause the whole model is asked of at the sizes that they look like, the likeliest; and
+how many are fitted by it, those that are nearest then."""
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, FURTHER, DEEPEST, COMPARED = 120, 200, 420, 180
+SEARCHED, FURTHER, DEEPEST, COMPARED = 120, 200, 420, 260
 """How often all quantities are asked of the ray model before the search ends; before it ends if the causes leave
 something; before a deeper search ends then; and before half as many alternatives are compared."""
+FARTHEST = 600
+"""The same before alternatives to what a deeper search found are no longer refined."""
 REFINED, DEEPER = 3, 3
 """How many explanations a deeper search begins with; how many alternatives to each of its causes that leave something
 are refined, and not only one."""
@@ -88,9 +91,11 @@ class Search:
         order = sorted(range(len(one.numbers)), key=lambda k: not self._idle(one, k))
         for cause in [one.numbers[k] for k in order]:
             number = one.numbers.index(cause)
-            if self._idle(one, number) or SEARCHED < self._asked < DEEPEST:
-                fewer = self._refine(one.without(number))
-                one = fewer if fewer.odds > one.odds else one
+            idle = self._idle(one, number)
+            if idle or SEARCHED < self._asked < DEEPEST:
+                self._refine(fewer := one.without(number))
+                fewer = self.pool[fewer.key]
+                one = fewer if fewer.odds > one.odds - (CLOSE if idle else 0.0) else one
         return one
 
     def _first_of(self) -> Explanation:
@@ -135,17 +140,29 @@ class Search:
             likely = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
             likely = [one for one in likely if one.odds > likely[0].odds - RARER - UNSURE]
             traced = [one for one in likely if not self._plain(one.numbers[-1])]
-            traced = traced[: RIVALS if self._asked < COMPARED else RIVALS // 2]
+            nearest = sorted(self._by_part(traced)[:SCREENED], key=self._whole_cost)
+            traced = self._by_part(
+                [one for k, one in enumerate(nearest) if one.key not in {o.key for o in nearest[:k]}]
+            )
+            traced = traced[: RIVALS if self._deep or self._asked < COMPARED else RIVALS // 2]
             spare = DEEPER if self._deep else 1
-            for one in likely:
-                if one not in traced and not self._plain(one.numbers[-1]):
-                    continue
+            for one in [*traced, *(one for one in likely if self._plain(one.numbers[-1]))]:
                 rival = self._fit(one, best.odds, again=True)
-                if spare and self._misses(rival) and self._asked < DEEPEST:
+                if spare and self._misses(rival) and self._asked < (FARTHEST if self._deep else DEEPEST):
                     self._refine(rival)
                     spare -= 1
         others = [one for one in self.pool.values() if one.key != best.key and self._as_good(one, best)]
         return best, *sorted(others, key=lambda one: -one.odds)
+
+    def _by_part(self, ones: Sequence[Explanation]) -> list[Explanation]:
+        """Return explanations in their order, the first of each part that has their last cause before all others."""
+        parts = [self.what.responses[one.numbers[-1]].cause.part for one in ones]
+        order = sorted(range(len(ones)), key=lambda k: parts[k] in parts[:k])
+        return [ones[k] for k in order]
+
+    def _whole_cost(self, one: Explanation) -> float:
+        """Return what an explanation costs by the whole model at its sizes, see `Deepening`."""
+        return self._deepening().cost(evaluate(self.what, self.model, one, [f.size for f in one.found]))
 
     def _as_good(self, one: Explanation, best: Explanation) -> bool:
         """Return whether an explanation is as good as the best: as likely; or of as many causes and leaving as little,
