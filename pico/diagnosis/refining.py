@@ -2,8 +2,8 @@
 reading taken as the bound that it is, and with residuals beyond FAR standard deviations squeezed to their logarithm.
 
 A reading that ends at its noise only tells that there is no more light than that. So it counts only if the model gives
-more, and the model is asked for the light below the noise, too, as the way back from the dark leads over it. As squeezed
-residuals have more minima, a descent may end where some readings are met exactly and others are not.
+more, and the model is asked for the light below the noise, too, as the way back from the dark leads over it. Squeezed
+residuals have more minima: a descent may end where some readings are met exactly and others are not.
 """
 
 from __future__ import annotations
