@@ -23,6 +23,8 @@ MANY = 8
 """How many names are told in a row."""
 SHOWN, SURE = 0.05, 0.5
 """Probabilities: of a cause that is told, and of nothing unusual where it is the likeliest."""
+_POSSIBLE = "may have changed"
+"""The kind of suspects of which one or several account for what is not explained (`pico.diagnosis.doubt`)."""
 _INDENT = " " * 9
 _SHARES = ("loss", "gain", "power", "focal")
 _WAYS = {"left": "to its left", "up": "up", "ahead": "ahead", "yaw": "about the vertical", "pitch": "up or down"}
@@ -158,13 +160,18 @@ def _suspects(found: Morning) -> list[str]:
     """Return what happened: of each cause who may be it, and its repair."""
     lines, whole = list[str](), len(found.causes) > 1
     for n, group in enumerate(found.causes):
-        lines += suspects.lines(group, SHOWN)
+        if group[0].kind == _POSSIBLE:
+            parts = listed([s.part for s in group], len(group))
+            lines += wrap(f"The readings are not explained; one or several of: {parts}.", "  ")
+            lines += wrap(_unexplained(found), "  ")
+        else:
+            lines += suspects.lines(group, SHOWN)
         if whole:
             lines += wrap(f"Repair: {found.repairs[n]}.", _INDENT)
     unexplained = next((s.probability for s in found.suspects if s.kind == "something else"), 0.0)
-    if found.unexplained:
+    if found.unexplained and all(group[0].kind != _POSSIBLE for group in found.causes):
         lines += wrap(_unexplained(found), "  ")
-    elif found.suspects and (unexplained > SURE or (not lines and not found.moved)):
+    elif not found.unexplained and found.suspects and (unexplained > SURE or (not lines and not found.moved)):
         quiet = sum(s.probability for s in found.suspects if s.kind == "nothing unusual")
         calm, more = "All that was read is as usual.", "What is left, no change of known parts explains."
         lines.append(f"  {calm if quiet >= SURE else more}")
@@ -185,6 +192,8 @@ def _unexplained(found: Morning) -> str:
     whole = listed(parts) + (f" and of {more} more readings" if more > 0 else "")
     if not found.causes:
         return f"No change of known parts explains {whole}."
+    if any(group[0].kind == _POSSIBLE for group in found.causes):
+        return f"The likeliest combination of causes leaves {whole} unexplained."
     these = "These causes leave" if len(found.causes) > 1 else "This cause leaves"
     return f"{these} {whole} unexplained; something else changed as well."
 

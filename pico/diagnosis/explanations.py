@@ -145,22 +145,22 @@ def fitted(what: Changed, model: Modelled, one: Explanation, least: float = -mat
     best = _begun(what, model, one)
     lowest, part, traced = _misfit(what, best), 1.0, False
     for number in range(ROUNDS):
-        if number == 3 and _bound(what, best).odds < least - HOPELESS:
+        if number == 3 and bound_odds(what, best).odds < least - HOPELESS:
             break
         if (number > 1 or part < 1) and not traced and _apart(what, best):
-            best, traced = _traced(what, model, best), True
+            best, traced = trace_slopes(what, model, best), True
         to = _bounded(what, best, _sizes(what, best))
         step = [part * (a - f.size) for a, f in zip(to, best.found, strict=True)]
         if all((np.abs(s) <= NEAR * _sigma(f)).all() for s, f in zip(step, judged(what, best).found, strict=True)):
             break
-        now = _modelled(what, model, best, [f.size + s for f, s in zip(best.found, step, strict=True)])
+        now = evaluate(what, model, best, [f.size + s for f, s in zip(best.found, step, strict=True)])
         off = _misfit(what, now)
         if off < lowest - 1e-6:
             traced = traced and off > lowest / 2
             best, lowest, part = _corrected(what, best, now, step), off, min(1.0, 3 * part)
         else:
             part /= 4
-    return _bound(what, best)
+    return bound_odds(what, best)
 
 
 def _begun(what: Changed, model: Modelled, one: Explanation) -> Explanation:
@@ -168,16 +168,16 @@ def _begun(what: Changed, model: Modelled, one: Explanation) -> Explanation:
     than nothing: from where all light is lost no derivative leads back."""
     rest = replace(one, found=one.found[:-1])
     without, sizes = _misfit(what, replace(rest, exact=True)), [f.size for f in one.found]
-    best = _modelled(what, model, one, sizes)
+    best = evaluate(what, model, one, sizes)
     for _ in range(HALVED):
         if _misfit(what, best) <= without or not len(sizes[-1]):
             break
         sizes = [*sizes[:-1], sizes[-1] / 2]
-        best = _modelled(what, model, one, sizes)
+        best = evaluate(what, model, one, sizes)
     return best
 
 
-def _bound(what: Changed, one: Explanation) -> Explanation:
+def bound_odds(what: Changed, one: Explanation) -> Explanation:
     """Return an explanation with its odds as far as they are sure: by what it leaves at its sizes, not by what its
     derivatives say that better ones would leave."""
     left, found = what.left(one), judged(what, one)
@@ -199,7 +199,7 @@ def _at(what: Changed, one: Explanation, sizes: Sequence[Any], beside: Any) -> E
     return replace(one, found=found, beside=beside)
 
 
-def _modelled(what: Changed, model: Modelled, one: Explanation, sizes: Sequence[Any]) -> Explanation:
+def evaluate(what: Changed, model: Modelled, one: Explanation, sizes: Sequence[Any]) -> Explanation:
     """Return an explanation at other sizes, by the whole model, with the derivatives of each cause alone."""
     responses = [what.responses[n] for n in one.numbers]
     alone = _at(what, one, sizes, 0.0)
@@ -219,7 +219,7 @@ def _apart(what: Changed, one: Explanation) -> bool:
     return bool((np.abs(one.beside) > TOGETHER * noise).any())
 
 
-def _traced(what: Changed, model: Modelled, one: Explanation) -> Explanation:
+def trace_slopes(what: Changed, model: Modelled, one: Explanation) -> Explanation:
     """Return an explanation with the derivatives of the whole model."""
     responses, found = [what.responses[n] for n in one.numbers], []
     sizes = [f.size for f in one.found]

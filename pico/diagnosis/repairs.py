@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnosis.darkness import NO_LIGHT, STOPS
+from pico.diagnosis.doubt import POSSIBLE
 from pico.model.setup import Setup
 
 if TYPE_CHECKING:
@@ -27,6 +28,7 @@ def repair(setup: Setup, suspect: Suspect | None, values: Mapping[str, Mapping[s
             return f"`pico do {part} home {tunable}`; where that does not help its mount slipped: turn it back by hand"
         return f"turn {part} back in its mount"
     hands = {
+        POSSIBLE: f"check {', '.join([part, *suspect.like])} in this order; run `pico morning` again after each",
         NO_LIGHT: f"look at {part}: its key, its supply, its shutter",
         STOPS: f"look for what stands in the beam up to {[part, *suspect.like][-1]}; `pico beam` shows its way",
         "power": f"look at the supply of {part}, and let it warm up",

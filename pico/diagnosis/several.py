@@ -12,8 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from pico.diagnosis.explanations import PLAIN, Changed, Explanation, fitted, roughly
+from pico.diagnosis.deepening import Deepening
+from pico.diagnosis.explanations import PLAIN, Changed, Explanation, evaluate, fitted, roughly
 from pico.diagnosis.modelled import Modelled
+from pico.diagnosis.refining import refine
 from pico.diagnosis.weighing import modes
 
 MOST = 6
@@ -30,14 +32,20 @@ RARER, LEFT = 10.0, 4.0
 """Up to which difference of it one of as many causes is, if it leaves of all changes no more than so many variances."""
 UNSURE = 4.0
 """By how much less likely an explanation may look before it is fitted by the whole model."""
-RIVALS = 8
-"""How many alternatives to each cause are fitted by the whole model, the likeliest."""
+SCREENED, RIVALS = 30, 8
+"""How many alternatives to each cause the whole model is asked of at the sizes that they look like, the likeliest; and
+how many are fitted by it, those that are nearest then."""
 STARTS, NEIGHBOR, OTHERS = 6, 6.0, 2
 """Of how many explanations at most it is asked whether a cause less or another one is better; by how much less likely
 these may be than the best; and how many alternatives to each cause are tried then."""
-SEARCHED, FURTHER, COMPARED = 120, 420, 180
+SEARCHED, FURTHER, DEEPEST, COMPARED = 120, 200, 420, 260
 """How often all quantities are asked of the ray model before the search ends; before it ends if the causes leave
-something; and before half as many alternatives are compared."""
+something; before a deeper search ends then; and before half as many alternatives are compared."""
+FARTHEST = 600
+"""The same before alternatives to what a deeper search found are no longer refined."""
+REFINED, DEEPER = 3, 3
+"""How many explanations a deeper search begins with; how many alternatives to each of its causes that leave something
+are refined, and not only one."""
 ALIKE = 1.0
 """Standard deviations up to which two causes that dim light dim the same."""
 MISFIT = 4.0
@@ -53,6 +61,7 @@ class Search:
     pool: dict[tuple[int, ...], Explanation] = field(default_factory=dict)
     _tried: set[tuple[tuple[int, tuple[int, ...]], ...]] = field(default_factory=set)
     _first: int = 0
+    _deep: bool = False
 
     def __post_init__(self) -> None:
         self._first = self.model.asked
@@ -65,6 +74,53 @@ class Search:
     def best(self) -> Explanation:
         """Return the likeliest explanation: without causes where nothing unusual is the likeliest."""
         self._grown([self._fit(Explanation())])
+        self._better()
+        if self._misses(self._first_of()):
+            self._deep = True
+            for one in self._by_cost()[:REFINED]:
+                self._refine(one)
+            self._better()
+        if self._misses(self._first_of()):
+            self._deepening().grow([Explanation(), *self._by_cost()[:REFINED]])
+            self._better()
+        return self._needed(self._first_of())
+
+    def _needed(self, one: Explanation) -> Explanation:
+        """Return an explanation without those of its causes that are not needed: those that do nothing which would
+        show, and, as a search that was cut short did not ask it, any other."""
+        order = sorted(range(len(one.numbers)), key=lambda k: not self._idle(one, k))
+        for cause in [one.numbers[k] for k in order]:
+            number = one.numbers.index(cause)
+            idle = self._idle(one, number)
+            if idle or SEARCHED < self._asked < DEEPEST:
+                self._refine(fewer := one.without(number))
+                fewer = self.pool[fewer.key]
+                one = fewer if fewer.odds > one.odds - (CLOSE if idle else 0.0) else one
+        return one
+
+    def _first_of(self) -> Explanation:
+        return max(self.pool.values(), key=lambda one: one.odds)
+
+    def _by_cost(self) -> list[Explanation]:
+        return sorted((one for one in self.pool.values() if one.numbers), key=self._deepening().cost)
+
+    def _deepening(self) -> Deepening:
+        return Deepening(self.what, self.model.lowest, self._refine, self._enough)
+
+    def _enough(self, one: Explanation) -> bool:
+        """Return whether a deeper search ends: with an explanation that leaves nothing, or with its last question."""
+        return self._asked > DEEPEST or not self._misses(one)
+
+    def _refine(self, one: Explanation) -> Explanation:
+        """Return an explanation at sizes that a descent from its own leads to, if these are better than known ones."""
+        found = refine(self.what, self.model, one)
+        known = self.pool.get(one.key)
+        if known is None or found.odds > known.odds:
+            self.pool[one.key] = found
+        return found
+
+    def _better(self) -> None:
+        """Replace causes of the likeliest explanations, or leave them out, as long as that makes them likelier."""
         done: set[tuple[int, ...]] = set()
         for _ in range(STARTS):
             first = max(self.pool.values(), key=lambda one: one.odds)
@@ -75,7 +131,6 @@ class Search:
             done.add(start.key)
             if (other := self._bettered(start)) is not None and other.odds > first.odds:
                 self._grown([other])
-        return max(self.pool.values(), key=lambda one: one.odds)
 
     def close(self, best: Explanation) -> tuple[Explanation, ...]:
         """Return the explanations that are as good as the best, with one of its causes replaced or otherwise, that
@@ -85,12 +140,29 @@ class Search:
             likely = sorted(self._wider(rest, but=best.numbers, most=None), key=lambda one: -one.odds)
             likely = [one for one in likely if one.odds > likely[0].odds - RARER - UNSURE]
             traced = [one for one in likely if not self._plain(one.numbers[-1])]
-            traced = traced[: RIVALS if self._asked < COMPARED else RIVALS // 2]
-            for one in likely:
-                if one in traced or self._plain(one.numbers[-1]):
-                    self._fit(one, best.odds)
+            nearest = sorted(self._by_part(traced)[:SCREENED], key=self._whole_cost)
+            traced = self._by_part(
+                [one for k, one in enumerate(nearest) if one.key not in {o.key for o in nearest[:k]}]
+            )
+            traced = traced[: RIVALS if self._deep or self._asked < COMPARED else RIVALS // 2]
+            spare = DEEPER if self._deep else 1
+            for one in [*traced, *(one for one in likely if self._plain(one.numbers[-1]))]:
+                rival = self._fit(one, best.odds, again=True)
+                if spare and self._misses(rival) and self._asked < (FARTHEST if self._deep else DEEPEST):
+                    self._refine(rival)
+                    spare -= 1
         others = [one for one in self.pool.values() if one.key != best.key and self._as_good(one, best)]
         return best, *sorted(others, key=lambda one: -one.odds)
+
+    def _by_part(self, ones: Sequence[Explanation]) -> list[Explanation]:
+        """Return explanations in their order, the first of each part that has their last cause before all others."""
+        parts = [self.what.responses[one.numbers[-1]].cause.part for one in ones]
+        order = sorted(range(len(ones)), key=lambda k: parts[k] in parts[:k])
+        return [ones[k] for k in order]
+
+    def _whole_cost(self, one: Explanation) -> float:
+        """Return what an explanation costs by the whole model at its sizes, see `Deepening`."""
+        return self._deepening().cost(evaluate(self.what, self.model, one, [f.size for f in one.found]))
 
     def _as_good(self, one: Explanation, best: Explanation) -> bool:
         """Return whether an explanation is as good as the best: as likely; or of as many causes and leaving as little,
@@ -106,12 +178,13 @@ class Search:
         """Return whether a cause needs no light traced."""
         return all(w.what in PLAIN for w in self.what.responses[number].cause.ways)
 
-    def _fit(self, one: Explanation, least: float = -math.inf) -> Explanation:
-        """Return an explanation fitted by the whole model, or the better one of the same causes."""
+    def _fit(self, one: Explanation, least: float = -math.inf, again: bool = False) -> Explanation:
+        """Return an explanation fitted by the whole model, or the better one of the same causes. `again`: fitted anew
+        if it looks better than a known one."""
         sides = [tuple(np.sign(f.size).astype(int).tolist()) for f in one.found]
         tried = tuple(sorted(zip(one.numbers, sides, strict=True)))
         known = self.pool.get(one.key)
-        if known is None or tried not in self._tried:
+        if known is None or tried not in self._tried or (again and one.odds > known.odds + UNSURE):
             self._tried.add(tried)
             found = fitted(self.what, self.model, one, least)
             if known is None or found.odds > known.odds:
@@ -189,6 +262,11 @@ class Search:
             if (other := self._fit(one, best.odds)).odds > best.odds:
                 return other
         return None
+
+    def _idle(self, one: Explanation, number: int) -> bool:
+        """Return whether one of the causes of an explanation does nothing that would show."""
+        noise = np.sqrt(np.diagonal(self.what.usual))
+        return len(one.found) > 1 and bool((np.abs(one.found[number].moved) < noise).all())
 
     def _merged(self, best: Explanation) -> Iterator[Explanation]:
         """Yield explanations with one cause that dims light in place of two."""

@@ -28,6 +28,7 @@ import numpy as np
 
 from pico.diagnosis.causes import Cause, Way
 from pico.diagnosis.darkness import losses
+from pico.diagnosis.doubt import doubted
 from pico.diagnosis.explanations import Changed, Explanation, judged
 from pico.diagnosis.grouping import Suspect, grouped, suspect
 from pico.diagnosis.modelled import Modelled
@@ -80,10 +81,12 @@ _DEEP = -25.0
 @dataclass(frozen=True)
 class Verdict:
     """What most likely happened. `causes`: each thing that did, in the order in which it was found, as the suspects of
-    which one did it, the likeliest first; none where nothing unusual is likelier. `suspects`: all of them, the
-    likeliest first, with nothing unusual and what no cause explains among them. `changes`: each quantity's change in
-    standard deviations of what is usual, in the order given. `blind`: the parts about which no quantity tells. `left`:
-    what the causes leave of each quantity's change, in its standard deviations."""
+    which one did it, the likeliest first; none where nothing unusual is likelier. If they leave readings unexplained,
+    only those that are proven are among them, and last a group of parts of which one or several may have changed, see
+    `doubt`. `suspects`: all of them, the likeliest first, with nothing unusual and what no cause explains among them.
+    `changes`: each quantity's change in standard deviations of what is usual, in the order given. `blind`: the parts
+    about which no quantity tells. `left`: what the causes leave of each quantity's change, in its standard deviations.
+    """
 
     suspects: tuple[Suspect, ...]
     changes: tuple[float, ...]
@@ -115,12 +118,14 @@ def suspects(
     whole = _changed(known, model, (model.responses if obvious else model.proportional)(possible), away)
     what = whole.only(once)
     close: tuple[Explanation, ...] = (judged(what, Explanation(exact=True)),)
+    pool: tuple[Explanation, ...] = close
     if obvious or _far(what):
         whole = whole if obvious else _changed(known, model, model.responses(possible), away)
         what = whole.only(once)
         search = Search(what, model.only(once))
         close = search.close(search.best())
-    groups = grouped(what, close)
+        pool = tuple(search.pool.values())
+    groups = doubted(what, close[0], pool, grouped(what, close))
     told = _told(what, close[0], groups)
     by = dict(zip(map(id, known), (whole.d / np.sqrt(np.diagonal(whole.usual))).tolist(), strict=True))
     left = dict(zip((id(known[n]) for n in once), what.unexplained(close[0]).tolist(), strict=True))

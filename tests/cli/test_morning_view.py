@@ -8,6 +8,7 @@ from dataclasses import replace
 from cli.views.light_back import suspected
 from cli.views.morning import data, text
 from pico.bench.drifting.morning import Morning, Read
+from pico.diagnosis.doubt import POSSIBLE
 from pico.diagnosis.grouping import Suspect
 
 POWER = Suspect("laser", "power", 1.0, {"power": -0.3}, {"power": 0.01}, {"power": ""})
@@ -73,3 +74,16 @@ def test_without_a_reading_that_could_be_compared_nothing_is_said_to_be_sure() -
     missed = Read("pm.power", "share", "mW", None, 0.2, 0.003, None)
     said = text(replace(FOUND, unusual=False, causes=(), suspects=(quiet,), readings=(missed,)))
     assert "sure" not in said and "no reading could be compared" in said
+
+
+def test_parts_that_may_have_changed_are_listed_whole_and_not_as_found_causes() -> None:
+    parts = ("m1", "m2", "l1", "l2", "iris", "flip", "qwp", "fc", "pbs", "hwp")
+    group = tuple(Suspect(p, POSSIBLE, 0.1, {}, {}, {}, tuple(other for other in parts if other != p)) for p in parts)
+    reads = (read("fc.power", 0.0, -2.0, -90.0, left=-66.2),)
+    found = replace(FOUND, causes=((POWER,), group), repairs=("look at the supply of laser", "check m1"),
+                    readings=reads, unexplained=("fc.power",))  # fmt: skip
+    said = " ".join(text(found).split())
+    one_of = "m1, m2, l1, l2, iris, flip, qwp, fc, pbs and hwp"
+    assert f"The readings are not explained; one or several of: {one_of}." in said
+    assert "The likeliest combination of causes leaves 66 σ of fc.power unexplained." in said
+    assert "100 % laser: power" in said and "10 %" not in said

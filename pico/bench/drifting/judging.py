@@ -21,8 +21,6 @@ if TYPE_CHECKING:
 
 UNUSUAL = 0.5
 """The probability that something happened from which a morning says so."""
-UNEXPLAINED = 5.0
-"""Standard deviations of what the causes leave of a change from which something else must have happened."""
 GONE = -9.0
 """The logarithm of the share of a reading that a camera which sees no light at all is taken to read."""
 Readable = tuple[Got | None, ...]
@@ -34,6 +32,7 @@ def compared(
 ) -> Morning:  # fmt: skip
     """Return a morning with its readings beside those of the reference, what has moved, and who is suspected; of one
     that was cut short nothing is judged. `records`: what the journal has of what has moved."""
+    from pico.diagnosis.doubt import UNEXPLAINED
     from pico.diagnosis.repairs import repair, unread
     from pico.diagnosis.suspects import NOTHING
 
