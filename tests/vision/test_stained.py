@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -18,12 +19,17 @@ NUMBER, SIZE = 7, 24.0
 POSE = upright(Pose(0, 0, 25), 0.0)
 CAMERA = looking("eye", (60, 10, 150), (0, 0, 0), (640, 480))
 TRUE = CAMERA.project(square(SIZE) @ POSE[:3, :3].T + POSE[:3, 3])
-CLEAN = {n: picture(CAMERA, [Painted(n, POSE, SIZE)], np.random.default_rng(n)) for n in (NUMBER, *range(20, 40))}
+
+
+@cache
+def clean(number: int):  # type: ignore[no-untyped-def]
+    """The marker without light on it."""
+    return picture(CAMERA, [Painted(number, POSE, SIZE)], np.random.default_rng(number))
 
 
 def lit(number: int, x: float, y: float, radius: float):  # type: ignore[no-untyped-def]
     """The marker with a disc of light over it: its middle in edges of the marker from the middle."""
-    frame = CLEAN[number]
+    frame = clean(number)
     edge = np.linalg.norm(TRUE[0] - TRUE[1])
     v, u = np.indices(frame.gray.shape)
     middle = TRUE.mean(axis=0) + np.array((x, y)) * edge
