@@ -5,6 +5,7 @@ import gc
 import os
 import subprocess
 import sys
+from collections.abc import Generator
 from pathlib import Path
 
 os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # neither a process that a test starts compiles everything anew
@@ -47,9 +48,18 @@ def pytest_configure(config: pytest.Config) -> None:
         settings.load_profile("fast")
 
 
-def pytest_collection_finish() -> None:
-    """So much is imported by now that looking for garbage as often as usual takes a part of every test."""
-    gc.set_threshold(50_000, 20, 100)
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Look for no garbage while the tests are imported, and never again among what they import: a test would do so in
+    vain, and a process that it forks would get pages of its own for all of that. For the rest, look less often."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.collect()
+        gc.freeze()
+        gc.set_threshold(50_000, 20, 100)
+        gc.enable()
 
 
 @pytest.fixture
