@@ -8,7 +8,7 @@ import sqlite3
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import chdir, contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -28,27 +28,55 @@ from pico.resources import labs_dir
 
 OTHER = "0.2.0"
 UPGRADE = "upgrade PICO: `"
-AS_OTHER = f"""
-import sys
-import pico.version
-pico.version.__version__ = {OTHER!r}
-from pico_cli.main import main
-sys.exit(main(sys.argv[1:]))
-"""
+
+
+@pytest.fixture(scope="module")
+def first(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A small lab in Git, its first commit tagged `before`, to be copied."""
+    root = Path(shutil.copytree(labs_dir() / "minimal", tmp_path_factory.mktemp("first") / "lab"))
+    with pytest.MonkeyPatch.context() as patch, chdir(root):
+        by_a_physicist(patch)
+        git("init", "-q", "-b", "main")
+        commit("the lab", "before")
+    return root
+
+
+@pytest.fixture(scope="module")
+def second(first: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The same with a second commit, tagged `after`, that requires a newer PICO and has what only that knows."""
+    root = Path(shutil.copytree(first, tmp_path_factory.mktemp("second") / "lab"))
+    require(root, '">=0.2"')
+    edit(root / "lab.yaml", "inventory:\n", "laser_curtains: [north]\ninventory:\n")  # a key that 0.2 will know
+    edit(root / "state" / "table.yaml", "components:\n", "components:\n  what_02_knows: {glows: true}\n")
+    with pytest.MonkeyPatch.context() as patch, chdir(root):
+        by_a_physicist(patch)
+        commit("require PICO 0.2", "after")
+    return root
 
 
 @pytest.fixture
-def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A small lab in Git, its first commit tagged `before`, as the current directory."""
-    root = tmp_path / "lab"
-    shutil.copytree(labs_dir() / "minimal", root)
+def lab(first: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the first lab as the current directory."""
+    return here(first, tmp_path, monkeypatch)
+
+
+@pytest.fixture
+def newer(second: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the second lab as the current directory."""
+    return here(second, tmp_path, monkeypatch)
+
+
+def here(made: Path, to: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    root = Path(shutil.copytree(made, to / "lab"))
     monkeypatch.chdir(root)
-    for who in ("AUTHOR", "COMMITTER"):
-        monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
-        monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
-    git("init", "-q", "-b", "main")
-    commit("the lab", "before")
+    by_a_physicist(monkeypatch)
     return root
+
+
+def by_a_physicist(patch: pytest.MonkeyPatch) -> None:
+    for who in ("AUTHOR", "COMMITTER"):
+        patch.setenv(f"GIT_{who}_NAME", "A Physicist")
+        patch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
 
 
 def git(*words: str) -> None:
@@ -65,17 +93,21 @@ def require(lab: Path, specifier: str) -> None:
     edit(lab / "lab.yaml", "table:\n", f"requires_pico: {specifier}\ntable:\n")
 
 
-def other(*words: str) -> Answer:
-    """Return the answer of a PICO of another version, in a process of its own."""
-    done = subprocess.run([sys.executable, "-c", AS_OTHER, *words], capture_output=True, text=True, check=False)
-    return Answer(done.returncode, done.stdout, done.stderr)
+@pytest.fixture
+def other(pico: Pico) -> Pico:
+    """The command line of a PICO of another version."""
+
+    def call(*words: str) -> Answer:
+        with of_version(OTHER):
+            return pico(*words)
+
+    return call
 
 
 @contextmanager
-def served_by_other(root: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+def served_by_other(root: Path) -> Iterator[None]:
     """Serve the bench by a PICO of another version meanwhile."""
-    with monkeypatch.context() as newer:
-        newer.setattr(version, "__version__", OTHER)
+    with of_version(OTHER):
         serving = served(root)
         serving.__enter__()
     try:
@@ -101,11 +133,7 @@ def refused(answer: Answer, at: str, requirement: str = ">=0.2") -> bool:
     "test", "check", "drift", "recover", "undo", "edge", "gui --no-open", "bench update", "bench use hardware",
     "catalog list", "catalog new mine --from linear_polarizer", "devices", "sim reset", "merge before", "git attach",
 ])  # fmt: skip
-def test_an_older_pico_refuses_a_lab_with_every_command_that_reads_it(lab: Path, pico: Pico, words: str) -> None:
-    require(lab, '">=0.2"')
-    edit(lab / "lab.yaml", "inventory:\n", "laser_curtains: [north]\ninventory:\n")  # a key that 0.2 will know
-    edit(lab / "state" / "table.yaml", "components:\n", "components:\n  what_02_knows: {glows: true}\n")
-    commit("require PICO 0.2", "after")
+def test_an_older_pico_refuses_a_lab_with_every_command_that_reads_it(newer: Path, pico: Pico, words: str) -> None:
     answer = pico(*words.split())
     assert refused(answer, "lab.yaml") or refused(answer, f"{head()}:lab.yaml"), answer
 
@@ -118,20 +146,20 @@ def test_a_satisfied_requirement_changes_nothing(lab: Path, pico: Pico) -> None:
     before = pico("plan", "--json").data["operations"]
     require(lab, '">=0.1,<0.2"')
     assert pico("validate").code == 0 and pico("plan", "--json").data["operations"] == before
-    with monkeypatched("0.1.0.dev3"):
+    with of_version("0.1.0.dev3"):
         assert refused(pico("validate"), "lab.yaml", ">=0.1,<0.2"), "0.1.0.dev3 precedes 0.1"
-    with monkeypatched("0.1.1rc1"):
+    with of_version("0.1.1rc1"):
         assert pico("validate").code == 0
 
 
 @contextmanager
-def monkeypatched(known: str) -> Iterator[None]:
+def of_version(known: str) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(version, "__version__", known)
         yield
 
 
-def test_an_old_commit_that_requires_another_pico_is_not_planned(lab: Path, pico: Pico) -> None:
+def test_an_old_commit_that_requires_another_pico_is_not_planned(lab: Path, pico: Pico, other: Pico) -> None:
     require(lab, '">=0.2"')
     commit("require PICO 0.2", "after")
     git("checkout", "-q", "before")
@@ -165,15 +193,15 @@ def test_what_is_no_version_specifier_is_an_error_at_its_line(lab: Path, pico: P
 
 
 def test_a_client_of_another_version_works_at_the_edge_while_the_lab_allows_both(
-    lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+    lab: Path, pico: Pico, other: Pico
 ) -> None:
-    with served_by_other(lab, monkeypatch):
+    with served_by_other(lab):
         assert pico("move", "lens", "x=600", "-y").code == 0
         assert '"x": 600' in " ".join(pico("get", "lens", "--json").out.split())
         assert other("status").code == 0
 
 
-def test_an_edge_refuses_to_adopt_a_lab_that_requires_a_newer_pico(lab: Path, pico: Pico) -> None:
+def test_an_edge_refuses_to_adopt_a_lab_that_requires_a_newer_pico(lab: Path, pico: Pico, other: Pico) -> None:
     assert pico("apply", "--auto-approve").code == 0
     kept = own_lab.read(bench_at(lab))
     with served(lab):
@@ -184,10 +212,8 @@ def test_an_edge_refuses_to_adopt_a_lab_that_requires_a_newer_pico(lab: Path, pi
         assert other("plan").code == 0, "plans go by the Lab that the edge has"
 
 
-def test_an_older_client_refuses_the_lab_of_a_newer_edge(
-    lab: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with served_by_other(lab, monkeypatch):
+def test_an_older_client_refuses_the_lab_of_a_newer_edge(lab: Path, pico: Pico, other: Pico) -> None:
+    with served_by_other(lab):
         assert other("apply", "--auto-approve").code == 0
         require(lab, '">=0.2"')
         assert other("bench", "update", "--yes").code == 0
