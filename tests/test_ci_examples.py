@@ -16,8 +16,6 @@ import pytest
 import yaml
 from pico_cli.app import build
 
-from pico.history.examples.example import make_example
-
 ROOT = Path(__file__).resolve().parent.parent
 CI = ROOT / "examples" / "ci"
 GITHUB = yaml.safe_load((CI / "github.yml").read_text())
@@ -51,9 +49,9 @@ def test_what_is_installed_is_the_labs_own_pin_for_there_is_no_package_to_name()
 
 
 @pytest.fixture
-def pull_request(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def pull_request(case_study: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A clone as continuous integration makes it: of a branch merged into main, HEAD detached, and `pico` on PATH."""
-    make_example("shel", tmp_path / "origin")
+    shutil.copytree(case_study, tmp_path / "origin")
     for who in ("AUTHOR", "COMMITTER"):
         monkeypatch.setenv(f"GIT_{who}_NAME", "A Physicist")
         monkeypatch.setenv(f"GIT_{who}_EMAIL", "physicist@localhost")
