@@ -36,8 +36,8 @@ def rendered(node: ast.AST) -> str | None:
 def hints() -> Iterator[tuple[str, str]]:
     """Yield each command between backticks in a text of the code, and where it stands."""
     for path in sorted(p for top in ("pico", "cli") for p in (ROOT / top).rglob("*.py")):
-        parts = set[int]()
-        for node in ast.walk(ast.parse(path.read_text())):
+        code, parts = path.read_text(), set[int]()
+        for node in ast.walk(ast.parse(code)) if "`pico" in code else ():
             if isinstance(node, ast.JoinedStr):
                 parts |= {id(value) for value in node.values}
             if id(node) not in parts and (text := rendered(node)):
