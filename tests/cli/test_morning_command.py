@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
+import forking
 import pytest
 from commanding import Brought, Pico, apply_e1, edit
 
@@ -100,9 +99,9 @@ def test_what_befell_a_mount_overnight_is_told_with_the_part_and_a_repair(lit: P
 
 def started(folder: Path) -> subprocess.Popen[str]:
     """Begin a morning in a process of its own, and come back in the midst of it."""
-    process = subprocess.Popen(
-        [sys.executable, "-m", "cli", "-C", str(folder), "morning", "--yes", "--json"], cwd=Path(__file__).parents[2],
-        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    process = forking.started(
+        forking.PICO, "-C", str(folder), "morning", "--yes", "--json", cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
     assert process.stdout
     for line in process.stdout:

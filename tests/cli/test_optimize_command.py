@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import json
 import math
-import os
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
 import cv2
+import forking
 import pytest
 from commanding import Brought, Pico, edit, succeed, with_goals
 
@@ -216,10 +215,9 @@ def test_what_is_wrong_with_a_tolerance_is_told_where_it_stands(
 
 
 def _started(folder: Path, *words: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "cli", "-C", str(folder), "optimize", *words, "--yes", "--json"]
-    process = subprocess.Popen(
-        command, cwd=Path(__file__).parents[2], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        env={**os.environ, "PYTHONUNBUFFERED": "1"},
+    process = forking.started(
+        forking.PICO, "-C", str(folder), "optimize", *words, "--yes", "--json", cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
     )  # fmt: skip
     assert process.stdout
     for line in process.stdout:

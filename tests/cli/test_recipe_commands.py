@@ -8,10 +8,10 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 from pathlib import Path
 from xml.etree import ElementTree
 
+import forking
 import pytest
 from commanding import Pico, edit
 
@@ -168,9 +168,8 @@ def test_one_that_is_left_to_itself_is_followed_to_its_end(turning: Path, pico: 
 
 
 def test_a_killed_recipe_goes_on_where_it_was(turning: Path, pico: Pico) -> None:
-    command = [sys.executable, "-c", "from pico_cli.main import main; import sys; sys.exit(main(sys.argv[1:]))"]
     words = ["run", "turning", "-p", "angles={from: 1, to: 30, step: 1}", "--yes"]
-    running = subprocess.Popen([*command, *words], stdout=subprocess.PIPE, text=True)
+    running = forking.started(forking.PICO, *words, stdout=subprocess.PIPE)
     assert running.stdout is not None
     for line in running.stdout:
         if "1[4].1" in line:
@@ -180,7 +179,7 @@ def test_a_killed_recipe_goes_on_where_it_was(turning: Path, pico: Pico) -> None
     assert "`pico run --resume` goes on" in pico("recipe").out
     answer = pico("run", "--resume", "--yes")
     assert answer.code == 0 and re.search(r"turning: done, 60 steps, \d+ of them before", answer.out)
-    running = subprocess.Popen([*command, *words], stdout=subprocess.PIPE, text=True)
+    running = forking.started(forking.PICO, *words, stdout=subprocess.PIPE)
     assert running.stdout is not None
     for line in running.stdout:
         if "1[3].1" in line:

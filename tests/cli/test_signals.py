@@ -13,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from commanding import Pico
+from forking import become
 from killed_commands import git
 from test_stopping_commands import PROGRAM, moving, started
 
@@ -35,8 +36,7 @@ def on_a_terminal(folder: Path, program: str, *words: str) -> tuple[int, int]:
     process, terminal = pty.fork()
     if not process:
         os.chdir(folder)
-        signal.signal(signal.SIGHUP, signal.SIG_DFL)
-        os.execv(sys.executable, [sys.executable, "-c", program, *words])
+        become(program, *words)
     return process, terminal
 
 

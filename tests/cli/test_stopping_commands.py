@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import signal
 import subprocess
-import sys
 import time
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
 from typing import Any
 
+import forking
 import pytest
 from commanding import Pico
 
@@ -47,10 +47,7 @@ sys.exit(main(sys.argv[1:]))
 
 def started(folder: Path, *words: str, **options: Any) -> subprocess.Popen[str]:
     """Start `pico` as a process of its own, which waits with the first part in the hand until it is stopped."""
-    process = subprocess.Popen(
-        [sys.executable, "-c", PROGRAM, *words], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-        **options,
-    )  # fmt: skip
+    process = forking.started(PROGRAM, *words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)
     moving(folder, lambda: process.poll() is None)
     return process
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from pathlib import Path
 
+import forking
 import pytest
 from commanding import Brought, Pico, Typed, a_run_goes_on, apply_manifest, edit
 
@@ -110,8 +109,7 @@ def test_while_somebody_has_the_bench_nothing_changes(kept: Path, pico: Pico) ->
 
 def test_killed_in_between_the_lab_proposes_the_specimen_and_nothing_is_lost(kept: Path, pico: Pico) -> None:
     words = ("swap", "lx_100", "--serial", "B7", "--focal-length", "100.3 mm", "-y")
-    died = subprocess.run([sys.executable, "-c", KILLED, *words], cwd=kept, capture_output=True, check=False)
-    assert died.returncode == 9
+    assert forking.started(KILLED, *words, cwd=kept).wait(60) == 9
     assert "serial: B7" in (kept / "lab.yaml").read_text() and focal(kept) == 100.0
     told = pico("plan")
     assert "warning[bench-lab]" in told.err and "pico bench update" in told.err and "lx_100" in told.err
