@@ -7,11 +7,10 @@ import random
 import shutil
 import signal
 import subprocess
-import sys
 import time
 from pathlib import Path
 
-PICO = "import sys; from pico_cli.main import main; sys.exit(main())"
+import forking
 
 
 def git(folder: Path, *words: str, ends: tuple[int, ...] = (0,)) -> str:
@@ -22,9 +21,8 @@ def git(folder: Path, *words: str, ends: tuple[int, ...] = (0,)) -> str:
 
 def killed(folder: Path, words: tuple[str, ...], seconds: float) -> bool:
     """Run `pico WORDS`, kill it with all that it started after so long; return whether it was killed."""
-    command = [sys.executable, "-c", PICO, *words]
-    running = subprocess.Popen(
-        command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
+    running = forking.started(
+        forking.PICO, *words, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True
     )
     try:
         running.wait(seconds)
@@ -51,9 +49,9 @@ def duration(folder: Path, words: tuple[str, ...]) -> float:
 
 
 def instants(count: int, longest: float, seed: int) -> list[float]:
-    """Return when to kill: at random within equal parts of the command's time, its imports (a third) left out."""
+    """Return when to kill: at random within equal parts of the command's time."""
     draw = random.Random(seed)
-    return [longest * (1 + 2 * (i + draw.random()) / count) / 3 for i in range(count)]
+    return [longest * (i + draw.random()) / count for i in range(count)]
 
 
 def _staged(folder: Path) -> str:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import subprocess
-import sys
 from pathlib import Path
 
+import forking
 import pytest
 from commanding import Pico, edit
 
@@ -38,7 +38,7 @@ def test_what_a_killed_merge_left_is_told_by_the_next_command_and_the_merge_then
     hook.parent.mkdir(exist_ok=True)
     hook.write_text("#!/bin/sh\nkill -9 $PPID\n")
     hook.chmod(0o755)
-    assert subprocess.run([sys.executable, "-m", "pico_cli.main", "merge", "left"], check=False).returncode == -9
+    assert forking.started(forking.PICO, "merge", "left").wait(60) == -9
     hook.unlink()
     said = pico("merge", "left")
     assert said.code == 0 and said.out.startswith("Merged left ("), said.err

@@ -6,8 +6,6 @@ import asyncio
 import gc
 import shutil
 import stat
-import subprocess
-import sys
 import threading
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import nullcontext, suppress
@@ -15,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import forking
 import numpy as np
 import pytest
 from bench_at import bench_at
@@ -417,8 +416,7 @@ def test_its_fidelity_counts_only_its_user_reaches_the_socket_and_a_second_serve
         path = place.find(bench_at(lab))
         assert path is not None
         assert stat.S_IMODE(path.lstat().st_mode) == 0o600 and stat.S_IMODE(path.parent.lstat().st_mode) == 0o700
-        words = [sys.executable, "-m", "pico_cli", "-C", str(lab), "edge"]
-        second = subprocess.run(words, capture_output=True, text=True, timeout=60, check=False)
+        second = forking.ran(forking.PICO, "-C", str(lab), "edge")
         assert second.returncode == ExitCode.LOCKED and "is served already" in second.stderr
     assert place.find(bench_at(lab)) is None and not path.exists()
     setup, _ = shel()
@@ -451,7 +449,7 @@ def test_a_lease_ends_with_the_client_that_took_it(lab: Path) -> None:
         "asyncio.run(go())"
     )
     with served(lab), Bench.open(lab) as bench:
-        subprocess.run([sys.executable, "-c", code, str(lab)], timeout=60, check=False)
+        assert forking.started(code, str(lab)).wait(60) == -9
 
         async def free(edge: Edge) -> None:
             await edge.release(await edge.acquire("next", 10.0))

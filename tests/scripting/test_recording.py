@@ -5,9 +5,9 @@ from __future__ import annotations
 import shutil
 import signal
 import subprocess
-import sys
 from pathlib import Path
 
+import forking
 import pytest
 from attended import ended_when
 from serving import served
@@ -212,9 +212,7 @@ with pico.open(sys.argv[1], fidelity="kinematic") as bench, bench.record("scan")
 
 @pytest.mark.parametrize("how", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT])
 def test_a_killed_script_leaves_a_run_that_is_told_truly(bench: Bench, how: signal.Signals) -> None:
-    with subprocess.Popen(
-        [sys.executable, "-c", SCRIPT, str(bench.root)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
-    ) as script:  # fmt: skip
+    with forking.started(SCRIPT, str(bench.root), stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as script:
         assert script.stdout is not None
         run = [script.stdout.readline().strip() for _ in range(2)][-1]
         script.send_signal(how)
