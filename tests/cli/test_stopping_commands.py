@@ -31,8 +31,8 @@ def waits(self, kind, operation, key, data):
     tell(self, kind, operation, key, data)
     if data.get("phase") == "transit" and not (notes / "waits").exists():
         (notes / "waits").write_text("")
-        until = time.monotonic() + 60
-        while time.monotonic() < until and not (notes / "stop.json").exists() and not (notes / "goes_on").exists():
+        until, ends = time.monotonic() + 60, (notes / "benches/sim/stop.json", notes / "goes_on")
+        while time.monotonic() < until and not any(path.exists() for path in ends):
             time.sleep(0.01)
 
 def halts(self):
