@@ -177,7 +177,9 @@ def _runs() -> bool:
 def _unset(folder: Path, how: str, name: str) -> None:
     """Take out what may not be there."""
     try:
-        git.run(folder, ["config", "--local", how, name], doing="change its configuration")
+        git.run(
+            folder, ["config", "--local", how, name], doing="change its configuration", ends=(0, 5)
+        )  # 5: no such key
     except PicoError:
         if name == "merge.pico" and (found := wiring(folder)) and found.known:
             raise
