@@ -45,7 +45,8 @@ def stood(tmp_path_factory: pytest.TempPathFactory) -> Path:
     make_example("shel", folder)
     with Bench.open(folder) as bench:
         bench.apply()
-    (folder / ".pico/benches/sim" / "journal.sqlite").unlink()
+    for name in ("journal.sqlite", "changes"):
+        (folder / ".pico/benches/sim" / name).unlink()
     return folder
 
 
