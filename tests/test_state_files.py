@@ -31,6 +31,7 @@ from pico.recipes.log import About, Log
 from pico.runs.damage import FromCommit
 from pico.runs.journal import Journal
 from pico.runs.salvage import Examined, Salvage, examine, salvage, write_journal
+from pico.runs.storage.change_count import ChangeCount
 
 ROOT = Path(__file__).resolve().parent.parent
 JSON = [file for file in ALL if not file.text]
@@ -455,6 +456,21 @@ def test_a_deleted_journal_is_missed_whatever_is_asked(committed: Path, pico: Pi
         assert said.code == 1 and "the file is gone" in said.err and "`pico doctor --journal`" in said.err, said.err
     assert pico("doctor", "--journal", "--yes").code == 0 and pico("doctor").code == 0
     assert pico("set", "p1", "angle=4", "--yes").code == 0
+
+
+def test_salvage_keeps_a_finished_run_that_no_commit_has_if_its_records_are_there(lab: Path, pico: Pico) -> None:
+    path = lab / ".pico/benches/sim/journal.sqlite"
+    assert pico("set", "p1", "angle=4", "--yes").code == 0 and pico("apply", "e1", "--yes").code == 0
+    with closing(Journal(path, looking=True)) as journal:
+        (*_, before, last) = journal.runs()
+    assert "seconds" in last.tally
+    count = ChangeCount(path)
+    count.note(10**6, durable=True)  # as of a log that lost its end
+    count.close()
+    found = pico("doctor", "--journal", "--yes", "--json")
+    assert found.code == 0 and not {before.run, last.run} & {one["run"] for one in found.data["lost"]}, found.out
+    with closing(Journal(path, looking=True)) as journal:
+        assert [one.run for one in journal.runs()][-2:] == [before.run, last.run]
 
 
 def test_salvage_numbers_runs_anew_if_damaged_rows_share_a_number(tmp_path: Path) -> None:

@@ -36,6 +36,8 @@ from pico.runs.storage.write_ahead import lost_transactions
 
 MOST = 10_000_000
 """Rows that are tried one by one at most if a table can't be read from its beginning to its end."""
+ENDS = ("done", "failed", "unknown")
+"""How an operation ends, as records and the tally of a run have it."""
 Rows = list[tuple[Any, ...]]
 
 
@@ -206,11 +208,11 @@ def _is_complete(row: Sequence[Any], rows: Rows, held: FromCommit | None) -> boo
     """Return whether all records of a run are there: as many as its commit has, or as many ends as it counted."""
     if held is not None:
         return len(rows) >= len(held.records)
-    ended = {(one[1].split("/")[1]) for one in rows if one[4] in ("done", "failed", "unknown")}
+    ended = {(one[1].split("/")[1]) for one in rows if one[4] in ENDS}
     phases = {(one[1], one[3]) for one in rows}
     whole = all((key, phase - 1) in phases for key, phase in phases if phase)
     tally = json.loads(row[7]) if row[7] else None
-    counted = sum(n for how, n in tally.items() if how != "skipped") if isinstance(tally, dict) else None
+    counted = sum(tally.get(how, 0) for how in ENDS) if isinstance(tally, dict) else None
     return whole and counted == len(ended)
 
 
