@@ -6,13 +6,13 @@ import json
 import shutil
 import signal
 import subprocess
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import forking
 import pytest
 from bench_at import bench_at
 from commanding import Pico
@@ -26,9 +26,8 @@ EMULATED = ("--backend", "hardware", "--emulate")
 @contextmanager
 def served(root: Path, *words: str) -> Iterator[tuple[subprocess.Popen[str], Any]]:
     """Serve a lab by the command; yields its process and what it said."""
-    process = forking.started(
-        forking.PICO, "--json", *words, "edge", cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE
-    )
+    command = [sys.executable, "-m", "pico_cli", "--json", *words, "edge"]
+    process = subprocess.Popen(command, cwd=root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     assert process.stdout is not None
     try:
         line = process.stdout.readline()

@@ -10,12 +10,12 @@ import shlex
 import shutil
 import signal
 import subprocess
+import sys
 import time
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-import forking
 import pytest
 from commanding import Pico, edit
 
@@ -115,8 +115,9 @@ def test_a_restoration_is_the_one_that_the_simulator_makes(wired: Path, pico: Pi
 
 def test_what_a_kill_in_the_midst_of_a_move_left_is_found_and_finished(wired: Path, pico: Pico) -> None:
     """The process dies with a part in the hand; who comes next finds it there, sets it down, and goes on."""
-    going = forking.started(
-        forking.PICO, *EMULATED, "apply", "C2", "--auto-approve", cwd=wired, stdout=subprocess.DEVNULL
+    main = [sys.executable, "-c", "import sys; from pico_cli.main import main; sys.exit(main())"]
+    going = subprocess.Popen(
+        [*main, *EMULATED, "apply", "C2", "--auto-approve"], cwd=wired, stdout=subprocess.DEVNULL, env=os.environ
     )
     try:
         ends = time.monotonic() + 120
