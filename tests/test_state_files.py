@@ -191,6 +191,10 @@ def test_a_file_of_before_the_checksums_is_read_and_one_of_a_newer_version_is_re
     assert file.read(path, lambda found: found["n"]) == 1
     path.write_text('{"n": 2, "schema": "pico.a/v1", "sha256": "carried along by an earlier version"}')
     assert file.read(path, dict) == {"schema": "pico.a/v1", "n": 2}
+    plain = StateFile("b.json", "record", "x", "y", "z", "`mv {path} b`")
+    for text in ("{}", '{"": 1}', '{"sha": 1}'):
+        path.write_text(text)
+        assert plain.read(path, dict) == json.loads(text)
     path.write_text('{"schema": "pico.a/v2"}')
     with pytest.raises(PicoError, match="newer PICO") as refused:
         file.read(path, dict)

@@ -81,7 +81,7 @@ def identify(context: typer.Context, devices: Names = None) -> int:
 def read(context: typer.Context, devices: Names = None) -> int:
     """Show what devices reply for each of their properties, the unit, and the value in the lab's unit. Nothing moves.
 
-    A reply that is no number is shown as unknown, with the reason. Exit code 1 where a device does not answer.
+    A reply that is not a valid number is shown as unknown, with the reason. Exit code 1: a device does not answer.
 
     Examples:
       pico devices read meter

@@ -76,12 +76,12 @@ def epoch(text: str) -> float:
 
 
 Waits = Sequence[tuple[str, float]]
-"""When a simulated bench was told to let time pass (ISO 8601), and how long [s]."""
+"""When `pico sim wait` let time pass on a simulated bench (ISO 8601), and how long [s]."""
 
 
 def seconds_on_bench(earlier: str, later: str, waits: Waits | None = None) -> float:
-    """Return the seconds from one time to a later one as the clock of a bench counts them: with those that a simulated
-    one was told to let pass in between (`waits`). What is written to the second and lies in the second of a wait counts
+    """Return the seconds from one time to a later one as the clock of a bench counts them: with those that
+    `pico sim wait` let pass in between (`waits`). What is written to the second and lies in the second of a wait counts
     as before it. Times in ISO 8601, in UTC if they name no time zone. Raises ValueError."""
     begin, end = parse_utc(earlier), parse_utc(later)
     told = [(parse_utc(at), seconds) for at, seconds in waits or ()]

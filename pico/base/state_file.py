@@ -27,6 +27,8 @@ Kind = Literal["cache", "process", "memory", "record", "safety"]
 finds again. `record`: gone for good if it is deleted. `safety`: never read as empty; nothing moves until a person
 decides."""
 _CHECKED = re.compile(rb'\{"sha256": ?"([0-9a-f]{64})"(?:, ?|(?=\}))')
+_MARK = b'{"sha256":'
+"""How a file with a checksum begins; with one byte changed, it is damaged and not of an earlier PICO."""
 _WRONG = (KeyError, TypeError, ValueError, AttributeError, RecursionError, OverflowError)
 """What a document raises that is not what its reader expects."""
 
@@ -112,7 +114,7 @@ class StateFile:
             if hashlib.sha256(data[checked.end() :]).hexdigest().encode() != checked[1]:
                 raise ValueError("its checksum does not match what it holds")
             document = json.loads(b"{" + data[checked.end() :])
-        elif sum(one != other for one, other in zip(data, b'{"sha256":', strict=False)) <= 1 < len(data):
+        elif sum(one == other for one, other in zip(data, _MARK, strict=False)) >= len(_MARK) - 1:
             raise ValueError("the line with its checksum is damaged")
         else:
             document = json.loads(data)

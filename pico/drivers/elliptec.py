@@ -136,8 +136,7 @@ class _Axis:
     async def home(self) -> float:
         """Drive to its zero."""
         at = await self._moved("find its zero", lambda: 0, "ho")
-        mark = lambda bus: self._asked(bus, f"sj{_hex(self._mark)}", "GS")  # noqa: E731
-        await self._line.ask("keep that it was homed", mark)
+        await self._line.ask("keep that it was homed", lambda bus: self._asked(bus, f"sj{_hex(self._mark)}", "GS"))
         return at
 
     async def stop(self) -> None:

@@ -28,6 +28,7 @@ _NEGATIVE = re.compile(r"NINF|UNDERFLOW|UNDER", re.IGNORECASE)
 _LEAST_SENTINEL = 9.0e36
 """From here on a number stands for something else: SCPI-99 (volume 1, 7.2.1.4) says infinity by 9.9E37, minus infinity
 by -9.9E37 and NaN by 9.91E37. Some vendors give other numbers of this size."""
+_BEYOND: Mapping[str, ReasonCode] = {"+": "over-range", "-": "under-range"}
 _SCPI_NAN = (9.905e37, 9.915e37)
 _ERROR = re.compile(r'([+-]?[0-9]{1,5})(?:\s*,\s*(?:"(.*)"|([^"]*)))?', re.DOTALL)
 _ON, _OFF = ("1", "ON"), ("0", "OFF")
@@ -64,7 +65,7 @@ def _sentinel(said: str) -> ReasonCode | None:
         if _SCPI_NAN[0] <= abs(float(said)) <= _SCPI_NAN[1]:
             return "no-number"
         sign = "-" if said.startswith("-") else "+"
-    return {"+": "over-range", "-": "under-range"}.get(sign)  # type: ignore[return-value]
+    return _BEYOND.get(sign)
 
 
 def within(found: Readout, limits: tuple[float, float] | None) -> Readout:

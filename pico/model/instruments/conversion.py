@@ -39,7 +39,7 @@ class Conversion:
         return float(convert(_TURN, self.own)) if _is_angle(self.own) else 0.0
 
     def to_device(self, value: float) -> float:
-        """Return the device's number for one of the lab's. An angle that the limits exclude is told as the same angle
+        """Return the device's number for one of the lab's. An angle that the limits exclude becomes the same angle
         within them: by whole turns, or else by the period of the tunable."""
         at = self.wired.to_device(value, self.unit)
         if self.limits is None or not self._turn:
