@@ -30,6 +30,7 @@ SMALLEST = {
     "disks": "fmt note blame --points 1",
     "eyes": "--scenes 1 --renderer raycast",
     "identical": "",
+    "idle_connections": "--connections 200 --limit 256",
     "interferometers": "--frames 1 --points 3 --size 128 96 --repeat 1",
     "kernels": "--seeds 1 --shape 1000 1200",
     "kills": "--kills 50 --applies 1 --git 9",

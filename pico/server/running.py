@@ -17,6 +17,7 @@ import uvicorn
 
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.server.guard.addresses import require_safe
+from pico.server.guard.door import Door, Messages, Requests, raise_limit
 
 PING = 2.0
 """How often a socket's other end is asked whether it is there, well within the time that a lease lasts [s]."""
@@ -30,7 +31,8 @@ def listening(host: str, port: int, *, tls: bool = False) -> socket.socket:
     require_safe(host, tls=tls)
     try:
         family = socket.AF_INET6 if ":" in host else socket.AF_INET
-        made = socket.create_server((host, port), family=family, backlog=256)
+        with socket.create_server((host, port), family=family, backlog=256) as plain:
+            made = Door(plain.family, plain.type, plain.proto, fileno=plain.detach())
     except OSError as exc:
         text = f"the coordinator can't listen at {host}, port {port}: {exc.strerror or exc}"
         raise PicoError(error("listen", text, hint="`--port` takes another one"), ExitCode.LOCKED) from exc
@@ -44,6 +46,7 @@ def listening(host: str, port: int, *, tls: bool = False) -> socket.socket:
 def server(app: Any, certificate: Path | None = None, key: Path | None = None) -> uvicorn.Server:
     """Return what serves an app on sockets (`server.serve(sockets=[...])`) until SIGINT or SIGTERM; raises PicoError
     for a certificate or key that can't be used."""
+    raise_limit()
     config = configured(app, ssl_certfile=certificate, ssl_keyfile=key)
     try:
         config.load()
@@ -64,9 +67,9 @@ def _unusable(certificate: Path | None, key: Path | None, why: Exception) -> Pic
 def configured(app: Any, **more: Any) -> uvicorn.Config:
     """Return how an app is served."""
     found = uvicorn.Config(
-        app, log_level="warning", access_log=False, server_header=False, date_header=False, ws="websockets-sansio",
-        ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST, ws_per_message_deflate=False,
-        timeout_graceful_shutdown=3, h11_max_incomplete_event_size=1 << 16, **more,
+        app, log_level="warning", access_log=False, server_header=False, date_header=False, http=Requests, ws=Messages,
+        backlog=256, ws_ping_interval=PING, ws_ping_timeout=PING * 1.5, ws_max_size=LONGEST,
+        ws_per_message_deflate=False, timeout_graceful_shutdown=3, h11_max_incomplete_event_size=1 << 16, **more,
     )  # fmt: skip
     logging.getLogger("uvicorn.error").addFilter(_is_news)
     return found

@@ -22,6 +22,7 @@ from starlette.responses import JSONResponse
 from pico.diagnostics import PicoError, error
 from pico.server.access.principal import Principal, unauthenticated
 from pico.server.access.secret import bearer
+from pico.server.guard.door import mark_known
 from pico.server.guard.gatekeeper import OVER
 from pico.server.guard.rates import Rate
 from pico.server.guard.saying import failure, status_of
@@ -85,6 +86,7 @@ async def authenticated(connection: HTTPConnection) -> Principal:
         found = whose(connection)
         if found is None:
             raise unauthenticated()
+    mark_known(connection.scope)
     if not connection.headers.get("authorization"):
         _require_origin(connection)
     urgent = connection.url.path.endswith(URGENT)

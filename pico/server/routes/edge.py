@@ -14,6 +14,7 @@ from starlette.websockets import WebSocketDisconnect
 from pico.diagnostics import PicoError, error
 from pico.edge.network import messages
 from pico.server.access.principal import Principal
+from pico.server.guard.door import mark_known
 from pico.server.relay.dispatch import Dispatcher
 from pico.server.relay.hub import EdgeLine, Gone
 from pico.server.relay.polling import Polled, record_from_json
@@ -83,6 +84,7 @@ async def link(socket: WebSocket) -> None:
     try:
         async with asyncio.timeout(GREETING):
             line, records = await _greeted(socket, bench, nonce, key)
+            mark_known(socket.scope)
     except (KeyError, TypeError, ValueError, TimeoutError, PicoError, WebSocketDisconnect):
         with suppress(RuntimeError, WebSocketDisconnect):  # it is gone already
             await socket.close(STRANGER)
