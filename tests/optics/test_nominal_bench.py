@@ -140,3 +140,15 @@ def test_what_is_fixed_is_not_put_down() -> None:
     fixed = replace(setup, lab=replace(setup.lab, inventory=bolted))
     assert [*missing(fixed, standing(POSES), "g", goal({"m1.tip": (-12, 12)}))] == []
     assert nominal_of(fixed, standing({})).poses["m1"] == POSES["m1"]
+
+
+@pytest.mark.parametrize("begun", [False, True], ids=["light not known before", "light known before"])
+def test_what_is_set_and_put_one_after_the_other_has_the_light_of_a_bench_of_its_own(begun: bool) -> None:
+    bench = Nominal(FOLDED.setup, POSES, {})
+    if begun:
+        bench.light()
+    found = bench.set_to("m1.tip", 0.3).put("cam", "x", 1.5).put("m1", "pitch", 0.1).set_to("m1.tilt", -0.2)
+    alone = Nominal(found.setup, found.poses, found.values, found.unseen)
+    numbers, whole = found.numbers(SPOT), alone.numbers(SPOT)
+    assert numbers is not None and whole is not None and numbers.tolist() == whole.tolist()
+    assert bench.put("laser", "yaw", 0.05).numbers(SPOT) != pytest.approx(bench.numbers(SPOT))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -44,11 +45,27 @@ class Nominal:
     poses: Mapping[str, Pose]
     values: Mapping[str, Mapping[str, Any]]
     unseen: Mapping[str, Unseen] = field(default_factory=dict)
+    near: tuple[Light, frozenset[str]] | None = field(default=None, repr=False, compare=False)
+    """The light of the same bench but for some components, and these; what does not reach them is not followed anew."""
 
     def light(self) -> Light:
         """Return its light, with every laser on and no shutter shut."""
+        return self._light
+
+    @cached_property
+    def _light(self) -> Light:
         shining = {n: {k: v for k, v in own.items() if k not in _OPEN} for n, own in self.values.items()}
-        return light_of(self.setup, self.poses, shining, lit=lambda _: True, unseen=self.unseen)
+        like, changed = self.near or (None, frozenset[str]())
+        return light_of(
+            self.setup, self.poses, shining, lit=lambda _: True, unseen=self.unseen, like=like, changed=changed
+        )
+
+    def _near(self, component: str) -> tuple[Light, frozenset[str]]:
+        """Return what a bench like this one but for a component is `near` to."""
+        if self.near is None or "_light" in self.__dict__:
+            return self._light, frozenset({component})
+        light, changed = self.near
+        return light, changed | {component}
 
     def numbers(self, wanted: Sequence[str]) -> Array | None:
         """Return numbers (n,) by address; None where no light comes there, or the model cannot tell one of them."""
@@ -75,18 +92,19 @@ class Nominal:
         """Return the same with a tunable changed by so much, in its unit; one of which nobody knows starts at 0."""
         component, _, tunable = address.partition(".")
         own = self.values.get(component, {})
-        return replace(self, values={**self.values, component: {**own, tunable: own.get(tunable, 0.0) + by}})
+        values = {**self.values, component: {**own, tunable: own.get(tunable, 0.0) + by}}
+        return replace(self, values=values, near=self._near(component))
 
     def put(self, component: str, way: str, by: float) -> Nominal:
         """Return the same with a part put down otherwise, by so much [mm or deg] in one of the ways of `PLACED`."""
         if way in ("x", "y", "yaw"):
             pose = self.poses[component]
             moved = replace(pose, **{way: getattr(pose, way) + by})
-            return replace(self, poses={**self.poses, component: moved})
+            return replace(self, poses={**self.poses, component: moved}, near=self._near(component))
         about = self.setup.type_of(component).frames.optical
         seat = replace(Seat(), **{way: by})  # type: ignore[arg-type]
         own = self.unseen.get(component, SEEN).sitting(seat, about)
-        return replace(self, unseen={**self.unseen, component: own})
+        return replace(self, unseen={**self.unseen, component: own}, near=self._near(component))
 
     def by_tunable(self, wanted: Sequence[str], address: str) -> Array | None:
         """Return what numbers change (n,) per unit of a tunable; None where light is lost."""
