@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from pico.optics import gaussian
 from pico.optics.coherence import Spectrum
 from pico.optics.gaussian import Matrix
-from pico.optics.polarization import Field, Vector, carried, joined, plane_of_incidence, product, split, stokes
+from pico.optics.polarization import Field, Vector, carried, plane_of_incidence, product, stokes
 from pico.optics.rays import Surface, cross_alone
 
 _SAME = 1e-15  # 1/mm: shifts of waves that do not differ
@@ -180,11 +180,12 @@ def beyond(beam: Beam, surface: Surface, *, reflect: bool = False, amplitudes: A
     )  # fmt: skip
     back = gaussian.inverse(after).T @ before.T * (beam.index / index)
     of_s, of_p = amplitudes(abs(facing)) if amplitudes else (-1.0, 1.0) if reflect else (1.0, 1.0)
-    waves = []
-    for wave in came.waves:
-        s_part, p_part = split(wave.field, beam.along, s)
-        waves.append(replace(wave, field=joined(of_s * s_part, of_p * p_part, along, s), shift=back @ wave.shift))
-    return replace(came, along=along, across=across, curvature=curvature, waves=tuple(waves), index=index)
+    arrives, leaves = product(s, beam.along), product(s, along)  # p on either side
+    waves = tuple(
+        Wave((of_s * (w.field @ s)) * s + (of_p * (w.field @ arrives)) * leaves, back @ w.shift, w.group)
+        for w in came.waves
+    )
+    return replace(came, along=along, across=across, curvature=curvature, waves=waves, index=index)
 
 
 def level(along: Vector, otherwise: Vector) -> Vector:
@@ -196,7 +197,7 @@ def level(along: Vector, otherwise: Vector) -> Vector:
 
 def scaled(beam: Beam, amplitude: complex) -> Beam:
     """Return a beam with all its fields times a number."""
-    return replace(beam, waves=tuple(replace(w, field=w.field * amplitude) for w in beam.waves))
+    return replace(beam, waves=tuple(Wave(w.field * amplitude, w.shift, w.group) for w in beam.waves))
 
 
 def merged(waves: list[Wave]) -> tuple[Wave, ...]:

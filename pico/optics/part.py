@@ -15,7 +15,7 @@ from pico.model.catalog import ComponentType
 from pico.model.pose import Pose
 from pico.model.quantities import QuantityError, convert
 from pico.optics.axis import Optic
-from pico.optics.beam import Beam, forward, groups_of, scaled
+from pico.optics.beam import Beam, Wave, forward, groups_of, scaled
 from pico.optics.geometry import Event, geometry_of
 from pico.optics.polarization import Vector
 from pico.optics.rays import Surface
@@ -158,7 +158,7 @@ _SQUARE = 1e-6  # sine of the incidence from which an aperture counts as tilted
 
 def stretched(beam: Beam, back: NDArray[np.float64]) -> Beam:
     """Return a beam in transverse coordinates u of which its own are `back` u (2, 2): as strong, of another shape."""
-    waves = tuple(replace(wave, shift=back @ wave.shift) for wave in beam.waves)
+    waves = tuple(Wave(wave.field, back @ wave.shift, wave.group) for wave in beam.waves)
     return replace(beam, curvature=back @ beam.curvature @ back, waves=waves)
 
 

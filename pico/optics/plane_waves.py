@@ -48,8 +48,8 @@ def polarized(
     for wave in beam.waves:
         for sign in CIRCULAR:
             part = wave.field @ np.conj(unit[sign])
-            waves.append(replace(wave, field=kept * part * unit[sign]))
-            turned = replace(wave, field=swapped * part * np.exp(2 * sign * angle) * unit[-sign])
+            waves.append(Wave(kept * part * unit[sign], wave.shift, wave.group))
+            turned = Wave(swapped * part * np.exp(2 * sign * angle) * unit[-sign], wave.shift, wave.group)
             waves.append(_shifted(beam, turned, 2 * (sign / 1j).real * gradient))
     return replace(beam, waves=merged(waves))
 
@@ -70,7 +70,7 @@ def _shifted(beam: Beam, wave: Wave, by: NDArray[np.float64]) -> Wave:
     back = by * beam.wavelength / (2 * math.pi * beam.index)
     slope = beam.curvature @ back
     phase = np.exp(1j * beam.wave_number * (back @ slope / 2 + wave.shift @ back))
-    return replace(wave, field=wave.field * phase, shift=wave.shift + slope)
+    return Wave(wave.field * phase, wave.shift + slope, wave.group)
 
 
 def _axis_of(

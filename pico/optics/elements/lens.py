@@ -9,9 +9,9 @@ import numpy as np
 
 from pico.model.catalog import ComponentType
 from pico.optics import gaussian
-from pico.optics.beam import Beam, beyond, level, scaled
+from pico.optics.beam import Beam, Wave, beyond, level, scaled
 from pico.optics.part import Met, Part, arrived, clipped
-from pico.optics.polarization import Vector, carried, joined, plane_of_incidence, product, split
+from pico.optics.polarization import Vector, carried, plane_of_incidence, product
 from pico.optics.rays import Surface
 from pico.optics.strays import GLASS, astray, face, of_plate
 
@@ -95,9 +95,8 @@ def thin(came: Beam, center: Vector, axis: Vector, bends: Vector) -> Beam:
     mapped = gaussian.through(came.curvature, before, np.eye(2), (1, 1), (1, 1), flat) - axes @ bends @ axes.T
     curvature = gaussian.through(mapped, np.eye(2), after, (1, 1), (1, 1), flat)
     back = np.linalg.inv(after).T @ before.T
-    waves = tuple(
-        replace(w, field=joined(*split(w.field, came.along, s), along, s), shift=back @ w.shift) for w in came.waves
-    )
+    arrives, leaves = product(s, came.along), product(s, along)
+    waves = tuple(Wave((w.field @ s) * s + (w.field @ arrives) * leaves, back @ w.shift, w.group) for w in came.waves)
     return replace(came, along=along, across=across, curvature=curvature, waves=waves)
 
 
