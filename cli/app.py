@@ -124,7 +124,7 @@ def _module(command: str, name: str) -> Any:
     from pico.plug_ins.known import PlugIn
 
     one = PlugIn("pico.commands", command, path)
-    with calling(one, "be imported"):
+    with calling(one, "cannot be imported"):
         module = import_module(path)
     if not hasattr(module, "app") and not callable(getattr(module, name, None)):
         raise broken(one, f"has neither a function `{name}` nor an `app`", at=module)

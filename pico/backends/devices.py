@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, did_you_mean, error
-from pico.plug_ins.calling import Interface, function, loaded
+from pico.plug_ins.calling import Interface, function, having, loaded
 from pico.plug_ins.known import entries
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ HARDWARE, EMULATED = "hardware", "emulated"
 """The real bench, and its drivers with emulators at the other end."""
 
 
-INTERFACE = Interface(GROUP, {"": function})
+INTERFACE = Interface(GROUP, {"": function}, {"": having("describe", "observe", "execute", "stop", "close")})
 
 
 def shipped() -> list[str]:

@@ -16,8 +16,7 @@ from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Instrument
 from pico.model.wiring import DeviceEntry
-from pico.plug_ins.calling import Interface, calling, guarded_object, instance, loaded, shown
-from pico.plug_ins.faults import broken
+from pico.plug_ins.calling import Interface, guarded, guarded_object, having, instance, loaded
 from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.drivers"
@@ -47,12 +46,10 @@ def _guarded(found: Driver, name: str) -> Driver:
     if own_module(one.module):
         return found
 
+    make = guarded(one, found.made, having("connect", "stop", "close"), what="made")
+
     def made(device: str, entry: DeviceEntry, bus: Bus[Any]) -> Instrument:
-        with calling(one, f"make the instrument of {device}"):
-            instrument = found.made(device, entry, bus)
-        if not all(hasattr(instrument, needed) for needed in ("connect", "stop", "close")):
-            raise broken(one, f"failed: `made` returned {shown(instrument)}, expected an instrument", at=found.made)
-        return cast(Instrument, guarded_object(one, instrument))
+        return cast(Instrument, guarded_object(one, make(device, entry, bus)))
 
     return replace(found, made=made)
 

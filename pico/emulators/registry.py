@@ -11,7 +11,7 @@ from importlib.metadata import EntryPoint
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.emulators.behind import Behind, Emulator, Running
 from pico.model.wiring import DeviceEntry
-from pico.plug_ins.calling import Interface, guarded, instance, loaded
+from pico.plug_ins.calling import Interface, guarded, having, instance, loaded
 from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.emulators"
@@ -32,7 +32,11 @@ def emulator(name: str) -> Emulator:
         raise PicoError(error("emulator", f"there is no emulator `{name[:40]}`", hint=did_you_mean(name[:40], known())))
     found: Emulator = loaded(INTERFACE, known()[name])
     one = plug_in(GROUP, known()[name])
-    return found if own_module(one.module) else replace(found, started=guarded(one, found.started, what="started"))
+    return (
+        found
+        if own_module(one.module)
+        else replace(found, started=guarded(one, found.started, having("address", "close"), what="started"))
+    )
 
 
 class EmulatedBench:

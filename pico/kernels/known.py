@@ -20,10 +20,9 @@ def _wrong(made: Any) -> str:
     """Return what is wrong with what a kernel made: no image, and no numbers with their errors."""
     if not isinstance(made, Result):
         return instance(Result, Frame)(made)
-    numbers = {**made.value, **made.sigma}
-    bad = next((n for n, value in numbers.items() if isinstance(value, bool) or not isinstance(value, Real)), None)
-    if bad is not None:
-        return f"has no number as its `{bad}`: {numbers[bad]!r}"
+    for name, value in (*made.value.items(), *made.sigma.items()):
+        if isinstance(value, bool) or not isinstance(value, Real):
+            return f"has no number as its `{name}`: {value!r}"
     if made.value.keys() != made.sigma.keys():
         return f"has values of {', '.join(made.value) or 'nothing'}, and sigmas of {', '.join(made.sigma) or 'nothing'}"
     return ""

@@ -46,6 +46,16 @@ def instance(*types: type) -> Wrong:
     return lambda value: "" if isinstance(value, types) else f"is {shown(value)}, expected {names}"
 
 
+def having(*names: str) -> Wrong:
+    """Return what finds a value wrong that lacks one of the attributes."""
+
+    def wrong(value: Any) -> str:
+        lacking = [name for name in names if not hasattr(value, name)]
+        return f"is {shown(value)}, which has no `{lacking[0]}`" if lacking else ""
+
+    return wrong
+
+
 def function(value: Any) -> str:
     """Return what is wrong with a value that can't be called."""
     return "" if callable(value) else f"is {shown(value)}, expected a function"
@@ -68,7 +78,7 @@ def module_of(interface: Interface, name: str, module: str) -> Any:
     if own_module(module):
         return import_module(module)
     one = named(interface.group, name, module)
-    with calling(one, "be imported"):
+    with calling(one, "cannot be imported"):
         found = import_module(module)
     for key, wrong in interface.has.items():
         if not hasattr(found, key):
@@ -84,7 +94,7 @@ def loaded(interface: Interface, entry: EntryPoint) -> Any:
     one = plug_in(interface.group, entry)
     if own_module(one.module):
         return entry.load()
-    with calling(one, "be loaded"):
+    with calling(one, "cannot be loaded"):
         found = entry.load()
     if "" in interface.has and (why := interface.has[""](found)):
         raise broken(one, f"is wrong: `{one.attribute}` {why}", at=sys.modules.get(one.module))
@@ -118,7 +128,9 @@ class Loading(Mapping[str, Any]):
 
 @contextmanager
 def calling(one: PlugIn, what: str, lets: tuple[type[Exception], ...] = ()) -> Iterator[None]:
-    """Turn whatever a plug-in raises inside into PicoError (code `plugin`), besides PicoError and those of `lets`."""
+    """Turn whatever a plug-in raises inside into PicoError (code `plugin`), besides PicoError and those of `lets`.
+
+    `what` follows its title in the message."""
     try:
         yield
     except (Exception, SystemExit) as exc:
@@ -126,7 +138,7 @@ def calling(one: PlugIn, what: str, lets: tuple[type[Exception], ...] = ()) -> I
             raise
         if isinstance(exc, OSError) and own_met_it(exc) and not isinstance(exc, TimeoutError):
             raise  # a full disk is no mistake of the plug-in
-        raise PicoError(fault(one, exc, f"can't {what}")) from exc
+        raise PicoError(fault(one, exc, what)) from exc
 
 
 def guarded(
@@ -144,13 +156,13 @@ def guarded(
 
     @wraps(call)
     def called(*args: Any, **kwargs: Any) -> Any:
-        with calling(one, f"do `{what}`", lets):
+        with calling(one, f"failed in `{what}`", lets):
             value = call(*args, **kwargs)
         return judged(value)
 
     @wraps(call)
     async def awaited(*args: Any, **kwargs: Any) -> Any:
-        with calling(one, f"do `{what}`", lets):
+        with calling(one, f"failed in `{what}`", lets):
             value = await call(*args, **kwargs)
         return judged(value)
 
