@@ -45,15 +45,8 @@ def needed(requirement: str) -> Literal["newer", "older", "other", "never"]:
             return "other"
         epoch, release = f"{named.epoch}!" if named.epoch else "", ".".join(map(str, named.release))
         later = (*named.release[:-1], named.release[-1] + 1)
-        beside = (
-            f"{release}.dev0",
-            release,
-            f"{release}.post0",
-            f"{release}.0.1",
-            ".".join(map(str, later)),
-            "9999",
-            "0.0.1",
-        )
+        beside = [release, f"{release}.dev0", f"{release}.post0", f"{release}.0.1", ".".join(map(str, later))]
+        beside += ["0.0.1", "9999"]
         found |= {named, *(Version(f"{epoch}{word}") for word in beside), *_before(named)}
     fitting = [one for one in found if wanted.contains(one, prereleases=True)]
     newer, older = any(one > this for one in fitting), any(one < this for one in fitting)
