@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from typing import Any
 
+from pico.diagnostics import Diagnostic, PicoError
 from pico.plug_ins.calling import Interface, module_of
+from pico.plug_ins.faults import CODE
 from pico.plug_ins.known import FOLDERS, entries
 
 
@@ -41,3 +44,17 @@ def module(interface: Interface, name: str) -> Any:
     if key not in _LOADED or sys.modules.get(path) is None:
         _LOADED[key] = module_of(interface, name, path)
     return _LOADED[key]
+
+
+def intact(interface: Interface) -> tuple[dict[str, Any], tuple[Diagnostic, ...]]:
+    """Return all modules by name but those of plug-ins that are broken, and a warning for each of these."""
+    found: dict[str, Any] = {}
+    wrong: list[Diagnostic] = []
+    for name in modules(FOLDERS[interface.group], interface.group):
+        try:
+            found[name] = module(interface, name)
+        except PicoError as exc:
+            if any(one.code != CODE for one in exc.diagnostics):
+                raise
+            wrong += [replace(one, severity="warning") for one in exc.diagnostics]
+    return found, tuple(wrong)

@@ -351,3 +351,21 @@ def test_a_coordinator_goes_on_without_a_route(mistake: str, tmp_path: Path, ins
         found = (fault.code, fault.summary)
     assert found[0] == "plugin" and "the server route plug-in `own` of package own-parts" in found[1], found
     assert said in found[1], found
+
+
+@pytest.mark.parametrize(
+    ("called", "words", "code", "said"),
+    [
+        ("goal", ("optimize",), 0, "warning[plugin]"),
+        ("recipe step", ("recipe", "steps"), 0, "warning[plugin]"),
+        ("kernel", ("measure", "camera.image | centroid | centroid"), 1, "`centroid` takes an image"),
+        ("driver", ("catalog", "list"), 0, ""),
+    ],
+)
+def test_lists_and_hints_of_all_of_a_kind_go_on_without_a_broken_one(
+    called: str, words: tuple[str, ...], code: int, said: str, lab: Path, install: Install, pico: Pico
+) -> None:
+    (kind,) = (k for k in KINDS if k.called == called)
+    install(f"[{kind.group}]\nown = {kind.at}\n", MISTAKES["import"][0](kind.text))
+    answer = pico(*words)
+    assert answer.code == code and said in answer.err and "error[plugin]" not in answer.err, answer

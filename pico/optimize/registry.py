@@ -9,7 +9,7 @@ from typing import Protocol, cast
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.optimize.problem import Algorithm, Declaration, Problem
 from pico.plug_ins.calling import Interface, function, instance
-from pico.registered import module, modules
+from pico.registered import intact, module, modules
 
 FOLDER = "pico.optimize.algorithms"
 GROUP = "pico.algorithms"
@@ -43,7 +43,7 @@ def refusal(name: str, problem: Problem) -> PicoError | None:
     """Return why an algorithm cannot solve a problem, and which can; None where it can. Raises PicoError for a name
     that there is not."""
     if why := algorithm_file(name).DECLARATION.refusal(problem):
-        fits = ", ".join(n for n in known() if not algorithm_file(n).DECLARATION.refusal(problem))
+        fits = ", ".join(n for n, one in intact(INTERFACE)[0].items() if not one.DECLARATION.refusal(problem))
         return PicoError(error("algorithm", f"{name} {why}", hint=f"those that can: {fits}"))
     return None
 

@@ -13,7 +13,7 @@ from pico.model.setup import Setup
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal import within_reach
 from pico.plug_ins.calling import Interface, function, instance
-from pico.registered import module, modules
+from pico.registered import intact, module, modules
 
 FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"
@@ -43,9 +43,10 @@ def goal_file(name: str) -> GoalFile:
     return cast(GoalFile, module(INTERFACE, name))
 
 
-def takes() -> dict[str, str]:
-    """Return what each ready-made goal takes."""
-    return {name: goal_file(name).TAKES for name in known()}
+def takes() -> tuple[dict[str, str], tuple[Diagnostic, ...]]:
+    """Return what each ready-made goal takes, and a warning for each plug-in that is broken."""
+    found, wrong = intact(INTERFACE)
+    return {name: file.TAKES for name, file in found.items()}, wrong
 
 
 def made_ready(setup: Setup, seen: Observation, words: Sequence[str]) -> Ready:
