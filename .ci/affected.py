@@ -7,8 +7,11 @@ by the fixtures that it uses. A module leads to the changed one if it imports it
 (`pico/planning`, `cli`) and imports it by way of others of that room; `--depth 2` and more follow so many imports
 through all rooms. A plug-in that is found by being there leads to those that name its folder or its entry point, a
 command to the tests that call it by its name. Tests in the folder of the room that are called like the module are
-chosen, too. Other files choose the tests that name them, their lab, their component type, or list their folder. A
-change of pyproject.toml, constraints.txt or tests/conftest.py chooses all.
+chosen, too. Other files choose the tests that name them, their lab, their component type, or list their folder. Of
+what was deleted or renamed the text at the merge base says what it was to others. Tests that list the files of the
+repository (layers, packaging, encodings ...) are chosen for every file in the folders that they name. A change of
+pyproject.toml, constraints.txt or tests/conftest.py chooses all, and so does a file of the product that is not Python
+and that no test names.
 
 This is a first answer within minutes, read from the text of the files: tests that a change reaches by a longer way are
 left out. `.ci/run` and CI run every test, the slow ones, too.
@@ -20,14 +23,14 @@ import argparse
 import subprocess
 import sys
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-from import_graph import PACKAGES, ROOT, Graph, Unit
+from import_graph import BESIDE, PACKAGES, ROOT, Graph, Unit
 
 ALL = frozenset({"pyproject.toml", "constraints.txt", "tests/conftest.py"})
 """Files whose change may change any test."""
-LISTS = frozenset({"glob", "rglob", "iterdir", "walk", "scandir"})
+LISTS = frozenset({"glob", "rglob", "iterdir", "walk", "scandir", "listdir", "copytree"})
 """Names by which a test reads every file of a folder."""
 DEPTH = 1
 
@@ -40,6 +43,16 @@ def changed(root: Path, base: str = "") -> tuple[str, list[str]]:
     differ = _git(root, "diff", "--name-only", "--no-renames", "-z", since)
     untracked = _git(root, "ls-files", "--others", "--exclude-standard", "-z")
     return since, sorted({path for path in (differ + untracked).split("\0") if path})
+
+
+def deleted(root: Path, since: str, paths: Iterable[str]) -> dict[str, bytes]:
+    """Return the texts at a commit of those Python files among `paths` that are gone."""
+    found = {}
+    for path in paths:
+        if path.endswith(".py") and not (root / path).exists():
+            done = subprocess.run(["git", "show", f"{since}:./{path}"], cwd=root, capture_output=True, check=False)
+            found[path] = done.stdout if not done.returncode else b""
+    return found
 
 
 def _git(root: Path, *words: str) -> str:
@@ -80,12 +93,38 @@ def leads(graph: Graph, path: str, depth: int = DEPTH) -> dict[str, str]:
 def concerned(graph: Graph, path: str, depth: int = DEPTH) -> dict[str, str]:
     """Return the test files that a changed file concerns, each with the reason."""
     if path in ALL:
-        return dict.fromkeys(graph.tests, "all: it may change any test")
+        return _there(graph, dict.fromkeys(graph.tests, "all: it may change any test"))
     if _top(path) in PACKAGES and path.endswith(".py"):
-        return _tests_of_module(graph, path, depth)
-    if path.startswith("tests/"):
-        return _tests_beside(graph, path)
-    return _tests_reading(graph, path)
+        found = _tests_of_module(graph, path, depth)
+    elif path.startswith("tests/"):
+        found = _tests_beside(graph, path)
+    elif path.endswith(".py") and _top(path) in BESIDE:
+        found = {**_tests_reading(graph, path), **_users(graph, path)}
+    else:
+        found = _tests_reading(graph, path)
+        if not found and _top(path) in PACKAGES:
+            found = dict.fromkeys(graph.tests, "all: no test names this file of the product")
+    return _there(graph, {**_listing(graph, path), **found})
+
+
+def _there(graph: Graph, found: Mapping[str, str]) -> dict[str, str]:
+    """Return the tests that are not deleted."""
+    return {test: why for test, why in found.items() if test not in graph.gone}
+
+
+def _listing(graph: Graph, path: str) -> dict[str, str]:
+    """Return the tests that go through the files of the repository in a folder that has the changed one."""
+    folders = set(Path(path).parts[:-1])
+    return {
+        test: f"list the files of {_top(path)}/" for test, unit in graph.tests.items()
+        if unit.names & LISTS and graph.units[test].below & folders
+    }  # fmt: skip
+
+
+def _users(graph: Graph, path: str) -> dict[str, str]:
+    """Return the tests that import a file beside the product, directly or by a helper."""
+    users = (t for t, unit in graph.tests.items() if path in unit.imports or path in graph.helpers(t))
+    return dict.fromkeys(users, "import it")
 
 
 def _tests_of_module(graph: Graph, path: str, depth: int) -> dict[str, str]:
@@ -99,6 +138,11 @@ def _tests_of_module(graph: Graph, path: str, depth: int) -> dict[str, str]:
             found[test] = ways[min(reached)]
         elif _calls_commands(unit) and (called := unit.calls & commands.keys()):
             found[test] = f"call `pico {min(called)}`" if len(commands) == 1 else "call a command that imports it"
+    if path.startswith("cli/commands/"):  # which commands there are is read from the folder
+        lists = (
+            t for t, u in graph.tests.items() if t not in found and ("commands.md" in u.words or "help" in u.calls)
+        )
+        found |= dict.fromkeys(lists, "list the commands")
     for test in graph.tests:
         if test not in found and _named_alike(test, path):
             found[test] = f"are called like it, in tests/{room(path).rpartition('/')[2]}"
@@ -128,8 +172,8 @@ def _tests_beside(graph: Graph, path: str) -> dict[str, str]:
         below = path.removesuffix("conftest.py")
         return {test: f"all of {below}" for test in graph.tests if test.startswith(below)}
     if path.endswith(".py"):
-        users = (t for t, unit in graph.tests.items() if path in unit.imports or path in graph.helpers(t))
-        return dict.fromkeys(users, "import it")
+        named = {t: f"name {Path(path).name}" for t, u in graph.tests.items() if {Path(path).name, path} & u.words}
+        return {**named, **_users(graph, path)}
     for folder in Path(path).parents:
         beside = [test for test in graph.tests if str(Path(test).parent) == str(folder) != "tests"]
         if beside:
@@ -140,7 +184,7 @@ def _tests_beside(graph: Graph, path: str) -> dict[str, str]:
 def _tests_reading(graph: Graph, path: str) -> dict[str, str]:
     """Return the tests that read a changed data file or page, by the names in them."""
     names, stem = _names(graph, path), Path(path).stem
-    folders = {*Path(path).parts[:-1], f"{Path(path).parts[0]}_dir"} - {"tests"}
+    folders = {*Path(path).parts[:-1], f"{Path(path).parts[0]}_dir"} - {"tests", *PACKAGES}
     found: dict[str, str] = {}
     opening: dict[str, str] = {}
     for test, unit in graph.tests.items():
@@ -178,6 +222,8 @@ def report(found: dict[str, dict[str, str]], graph: Graph) -> Iterator[str]:
         reasons = Counter(tests.values())
         why = ", ".join(f"{count} {reason}" for reason, count in reasons.most_common()) or "no test reads it"
         yield f"  {path}: {len(tests)} ({why})" if tests else f"  {path}: {why}"
+        if path in graph.unreadable:
+            yield f"    cannot be read as Python: {graph.unreadable[path]}; what it imports is unknown"
     every = set().union(*found.values()) if found else set()
     yield f"Chosen: {len(every)} of {len(graph.tests)} test files, without slow tests. CI runs all of them."
 
@@ -190,7 +236,7 @@ def main() -> int:
     parser.add_argument("--list", action="store_true", help="print the chosen test files instead of running them")
     words, further = parser.parse_known_args()
     since, paths = changed(ROOT, words.base)
-    graph = Graph()
+    graph = Graph(ROOT, deleted(ROOT, since, paths))
     found = chosen(graph, paths, words.depth)
     print(f"Changed since {since[:9]} (merge base with {words.base or 'main'}), edited or new: {len(paths)} files")
     print("\n".join(report(found, graph)), flush=True)

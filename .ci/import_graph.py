@@ -37,6 +37,8 @@ class Unit:
     """What may be the name of a command: the first text in a call, in a list, or of several words."""
     asks: set[str] = field(default_factory=set)
     """The arguments of a fixture: other fixtures."""
+    below: set[str] = field(default_factory=set)
+    """The folders that it takes from a path of its own file: `ROOT / "pico"`; with `ROOT / top` all that it names."""
     automatic: bool = False
 
     def add(self, other: Unit) -> None:
@@ -54,11 +56,14 @@ class Unit:
 
 
 class Graph:
-    """The Python files below `root`, by path from there."""
+    """The Python files below `root`, by path from there; `gone`: the texts of those that were deleted since, by path,
+    which others may import and find still."""
 
-    def __init__(self, root: Path = ROOT) -> None:
-        self.root = root
-        self.modules = dict(_modules(root))
+    def __init__(self, root: Path = ROOT, gone: Mapping[str, bytes] | None = None) -> None:
+        self.root, self.gone = root, dict(gone or {})
+        self.unreadable: dict[str, str] = {}
+        """Files that are no Python, with the reason: they import nothing that is known."""
+        self.modules = {**dict(module_of(path) for path in self.gone if _is_module(path)), **dict(_modules(root))}
         self._below: dict[str, list[str]] = {}
         for name, path in self.modules.items():
             self._below.setdefault(name.rpartition(".")[0], []).append(path)
@@ -128,9 +133,17 @@ class Graph:
     # reading
 
     def _read(self, name: str, path: str) -> None:
-        tree = ast.parse((self.root / path).read_bytes())
+        try:
+            tree = ast.parse(self.gone[path] if path in self.gone else (self.root / path).read_bytes())
+        except (SyntaxError, ValueError) as exc:
+            line = f", line {exc.lineno}" if isinstance(exc, SyntaxError) and exc.lineno else ""
+            self.unreadable[path] = f"{exc.msg if isinstance(exc, SyntaxError) else exc}{line}"
+            self.units[path] = Unit()
+            return
         package = name if path.endswith("/__init__.py") else name.rpartition(".")[0]
         self.units[path] = self._unit(tree, package)
+        if path.startswith("tests/") and "__file__" in self.units[path].names:
+            self.units[path].below = _taken(tree, self.units[path])
         if path.endswith("/conftest.py"):
             top = {alias: imported for node in tree.body for alias, imported in self._bound(node, package)}
             found = self.fixtures.setdefault(str(Path(path).parent), {})
@@ -203,14 +216,22 @@ class Graph:
 
 def _modules(root: Path) -> Iterator[tuple[str, str]]:
     """Yield every module with its path; those beside the product by their bare names."""
-    for folder, package in PACKAGES.items():
+    for folder in (*PACKAGES, *BESIDE):
         for path in sorted((root / folder).rglob("*.py")):
-            parts = path.relative_to(root / folder).with_suffix("").parts
-            yield ".".join([package, *parts]).removesuffix(".__init__"), str(path.relative_to(root))
-    for folder in BESIDE:
-        for path in sorted((root / folder).rglob("*.py")):
-            shown = str(path.relative_to(root))
-            yield shown if path.name == "conftest.py" else path.stem, shown
+            yield module_of(str(path.relative_to(root)))
+
+
+def module_of(path: str) -> tuple[str, str]:
+    """Return the name by which a file is imported, and the file."""
+    folder, _, below = path.partition("/")
+    if folder in PACKAGES:
+        parts = [PACKAGES[folder], *Path(below).with_suffix("").parts]
+        return ".".join(parts).removesuffix(".__init__"), path
+    return path if Path(path).name == "conftest.py" else Path(path).stem, path
+
+
+def _is_module(path: str) -> bool:
+    return path.endswith(".py") and path.partition("/")[0] in (*PACKAGES, *BESIDE)
 
 
 def _below(node: ast.AST) -> Iterator[ast.AST]:
@@ -221,6 +242,21 @@ def _below(node: ast.AST) -> Iterator[ast.AST]:
             yield from (one for one in value if isinstance(one, ast.AST))
         elif isinstance(value, ast.AST) and type(value) not in _BARE:
             yield value
+
+
+def _taken(tree: ast.Module, unit: Unit) -> set[str]:
+    """Return the folders that a file takes from constants made of its own path."""
+    made = [n for n in tree.body if isinstance(n, ast.Assign) and "'__file__'" in ast.dump(n.value)]
+    roots = {target.id for n in made for target in n.targets if isinstance(target, ast.Name)}
+    found: set[str] = set()
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.BinOp) and isinstance(node.op, ast.Div)):
+            continue
+        left, right = node.left, node.right
+        if isinstance(left, ast.Name) and left.id in roots:
+            named = isinstance(right, ast.Constant) and isinstance(right.value, str)
+            found |= {*right.value.split("/")} if named else set(unit.words)
+    return found
 
 
 def _first_text(given: Iterable[ast.AST]) -> set[str]:

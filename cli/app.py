@@ -9,7 +9,7 @@ import traceback
 from functools import cache
 from importlib import import_module
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, NoReturn
 
 import typer
 from typer.core import TyperGroup
@@ -91,7 +91,7 @@ class Commands(TyperGroup):
 
     def _made(self, cmd_name: str) -> Any:
         name = stem(files()[cmd_name])
-        module = import_module(f"{commands.__name__}.{name}")
+        module = _module(cmd_name, name)
         app = getattr(module, "app", None)
         if app is None:
             app = typer.Typer(**PLAIN)
@@ -112,6 +112,23 @@ class Commands(TyperGroup):
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write what `pico --help` says, also after another option."""
         formatter.write(help_text() + "\n")
+
+
+def _module(command: str, name: str) -> Any:
+    """Return the module of a command; raises PicoError for a file put beside PICO's that is broken."""
+    path = f"{commands.__name__}.{name}"
+    if Path(files()[command]).parent == Path(__file__).parent / "commands":
+        return import_module(path)
+    from pico.plug_ins.calling import calling
+    from pico.plug_ins.faults import broken
+    from pico.plug_ins.known import PlugIn
+
+    one = PlugIn("pico.commands", command, path)
+    with calling(one, "cannot be imported"):
+        module = import_module(path)
+    if not hasattr(module, "app") and not callable(getattr(module, name, None)):
+        raise broken(one, f"has neither a function `{name}` nor an `app`", at=module)
+    return module
 
 
 @cache
@@ -169,6 +186,17 @@ def _share(command: Any, options: list[Any]) -> None:
         _share(below, options)
 
 
+def _no_code(command: str, code: object) -> NoReturn:
+    """Raise PicoError for a command that returned what is no exit code."""
+    from pico.plug_ins.calling import shown
+    from pico.plug_ins.faults import broken
+    from pico.plug_ins.known import PlugIn
+
+    name = stem(files()[command])
+    one, module = PlugIn("pico.commands", command, name), sys.modules.get(f"{commands.__name__}.{name}")
+    raise broken(one, f"failed: it returned {shown(code)}, expected an exit code", at=getattr(module, name, module))
+
+
 def run(words: list[str]) -> int:
     """Run one command; every error becomes a diagnostic and an exit code."""
     session = Session(json="--json" in words, debug="--debug" in words)
@@ -184,6 +212,8 @@ def run(words: list[str]) -> int:
             context.meta["pico.words"] = tuple(words)
             try:
                 code = group.invoke(context)
+                if code is not None and not isinstance(code, int):
+                    _no_code(context.invoked_subcommand or named[0], code)
             finally:  # also of a command that was not understood, and made no session
                 flags[:] = flags or flags_of(context.meta.get("pico.session", {}))
     except typer.Exit as exc:

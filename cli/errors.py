@@ -13,6 +13,7 @@ import typer
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
 
+from . import commands
 from .names import instead, moves
 
 ALIKE = 0.75
@@ -31,7 +32,9 @@ def explain(exc: BaseException, words: list[str]) -> tuple[list[Diagnostic], int
         return [_usage(exc, words)], ExitCode.ERROR
     if (found := _refused(exc)) is not None:
         return [found], ExitCode.ERROR
-    return [_internal(exc)], ExitCode.ERROR
+    from pico.plug_ins.faults import blamed
+
+    return [blamed(exc, {"pico.commands": commands.__name__}) or _internal(exc)], ExitCode.ERROR
 
 
 def _refused(exc: BaseException) -> Diagnostic | None:

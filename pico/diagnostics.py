@@ -5,10 +5,10 @@ Library code collects `Diagnostic`s and, where it can't go on, raises one `PicoE
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import Literal
+from typing import Any, Literal
 
 Severity = Literal["error", "warning", "note"]
 
@@ -70,6 +70,14 @@ class Diagnostic:
     address: str = ""
     label: str = ""
     source: SourceRange | None = None
+
+
+def read_diagnostic(data: Mapping[str, Any]) -> Diagnostic:
+    """Return a finding that was written as JSON."""
+    at, source = data.get("source"), None
+    if at is not None:
+        source = SourceRange(at["path"], Position(**at["start"]), Position(**at["end"]), at["snippet"])
+    return Diagnostic(**{**data, "source": source})
 
 
 def error(

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Literal
+
+if TYPE_CHECKING:
+    from packaging.version import Version
+
 __version__ = "0.1.0"
 
 PACKAGE = "pico-lab"
@@ -20,6 +25,55 @@ def satisfies(requirement: str) -> bool:
     if not len(specifiers):
         raise ValueError("empty specifier")
     return specifiers.contains(__version__, prereleases=True)
+
+
+def needed(requirement: str) -> Literal["newer", "older", "other", "never"]:
+    """Return which PICO satisfies a version specifier that this one does not: only newer ones, only older ones, both,
+    or none.
+
+    Asked are the versions that the specifier names and those right beside them, between which its answer is the same.
+    """
+    from packaging.specifiers import SpecifierSet
+    from packaging.version import InvalidVersion, Version
+
+    wanted, this = SpecifierSet(requirement), Version(__version__)
+    found = set()
+    for one in wanted:
+        try:
+            named = Version(one.version.removesuffix(".*"))
+        except InvalidVersion:  # `===` compares text, which may be no version
+            return "other"
+        epoch, release = f"{named.epoch}!" if named.epoch else "", ".".join(map(str, named.release))
+        later = (*named.release[:-1], named.release[-1] + 1)
+        beside = [release, f"{release}.dev0", f"{release}.post0", f"{release}.0.1", ".".join(map(str, later))]
+        beside += ["0.0.1", "9999"]
+        found |= {named, *(Version(f"{epoch}{word}") for word in beside), *_before(named)}
+    fitting = [one for one in found if wanted.contains(one, prereleases=True)]
+    newer, older = any(one > this for one in fitting), any(one < this for one in fitting)
+    return "other" if newer and older else "newer" if newer else "older" if older else "never"
+
+
+def _before(named: Version) -> list[Version]:
+    """Return versions below another one, down to none: of 0.2.0 they are 0.1.9999 and so on."""
+    from packaging.version import Version
+
+    epoch = f"{named.epoch}!" if named.epoch else ""
+    return [
+        Version(epoch + ".".join(map(str, (*named.release[:n], part - 1, 9999))))
+        for n, part in enumerate(named.release) if part
+    ]  # fmt: skip
+
+
+def downgrade_command(requirement: str) -> str:
+    """Return the shell command that installs an older PICO, which satisfies `requirement`; from a clone, the one that
+    lists its releases."""
+    import shlex
+    from pathlib import Path
+
+    source, _ = _installation()
+    if source and (Path(source) / ".git").exists():
+        return f"git -C {shlex.quote(source)} tag --list --sort=-version:refname"
+    return upgrade_command(requirement).replace(" --upgrade", "")
 
 
 def upgrade_command(requirement: str = "") -> str:

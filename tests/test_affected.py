@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
@@ -11,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / ".ci"))
 
-from affected import changed, concerned, report  # noqa: E402
+from affected import changed, concerned, deleted, report  # noqa: E402
 from import_graph import Graph  # noqa: E402
 
 SMALL = {
@@ -39,6 +40,8 @@ SMALL = {
     "cli/views.py": "",
     "catalog/lens.yaml": "name: lens\n",
     "labs/two/lab.yaml": "inventory:\n  a: {}\n  type: lens\n",
+    "benchmarks/speed.py": "",
+    "pico/drawing/page.html": "",
     "docs/how.md": "",
     "docs/why.md": "",
     "tests/conftest.py": "import pytest\n@pytest.fixture\ndef pico():\n    from pico_cli.main import main\n",
@@ -55,6 +58,10 @@ SMALL = {
     "tests/planning/golden/plans_1.txt": "",
     "tests/kernels/test_known.py": "from pico.kernels.known import FOLDER\n",
     "tests/test_bench.py": "from benches import Bench\n",
+    "tests/test_order.py": (
+        'ROOT = Path(__file__).parent\nfor top in ("pico", "tests"):\n    (ROOT / top).rglob("*.py")\n'
+    ),
+    "tests/test_speed.py": "import speed\n",
     "tests/test_two.py": 'LAB = "labs/two"\n',
     "tests/test_docs.py": 'PAGES = (ROOT / "docs").glob("*.md")\nONE = "how.md"\n',
     "tests/cli/test_go.py": 'from commanding import Pico\ndef test_go(pico):\n    pico("--json", "go", "p1")\n',
@@ -72,9 +79,15 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Graph:
     return Graph(root)
 
 
+LISTING = {"tests/test_order.py"}
+"""It lists the files of pico/ and tests/."""
+
+
 @pytest.mark.parametrize(
     ("path", "tests"),
     [
+        ("pico/runs/new.py", ""),
+        ("benchmarks/speed.py", "test_speed"),
         ("pico/drivers/stage.py", "drivers/test_stage"),
         ("pico/drivers/bus.py", "drivers/test_bus drivers/test_stage"),
         ("pico/planning/check.py", "planning/test_planner"),
@@ -98,7 +111,69 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Graph:
     ],
 )
 def test_a_change_chooses_the_tests_that_depend_on_it(small: Graph, path: str, tests: str) -> None:
-    assert {*concerned(small, path)} == {f"tests/{name}.py" for name in tests.split()}
+    listing = LISTING if path.startswith(("pico/", "tests/")) else set()
+    assert {*concerned(small, path)} == {f"tests/{name}.py" for name in tests.split()} | listing
+
+
+def changed_graph(root: Path, gone: tuple[str, ...] = (), new: Mapping[str, str] | None = None) -> Graph:
+    """Return the repository in small without some files, whose texts are known, and with new ones."""
+    for path, text in {**{p: t for p, t in SMALL.items() if p not in gone}, **(new or {})}.items():
+        (root / path).parent.mkdir(parents=True, exist_ok=True)
+        (root / path).write_text(text)
+    return Graph(root, {path: SMALL[path].encode() for path in gone})
+
+
+@pytest.mark.parametrize(
+    ("gone", "tests"),
+    [
+        ("pico/kernels/standard/mean.py", "kernels/test_known test_order"),
+        ("pico/drivers/bus.py", "drivers/test_bus drivers/test_stage test_order"),
+        ("pico/drivers/stage.py", "drivers/test_stage test_order"),
+        ("cli/commands/stop.py", "cli/test_stop"),
+        ("tests/benches.py", "test_bench test_order"),
+        ("tests/test_bench.py", "test_order"),
+        ("tests/planning/conftest.py", "planning/test_planner planning/test_other test_order"),
+    ],
+)
+def test_what_is_deleted_or_renamed_chooses_those_that_needed_it(tmp_path: Path, gone: str, tests: str) -> None:
+    graph = changed_graph(tmp_path, (gone,), {"pico/runs/renamed.py": SMALL[gone]})
+    assert {*concerned(graph, gone)} == {f"tests/{name}.py" for name in tests.split()}
+
+
+@pytest.mark.parametrize(
+    ("path", "tests"),
+    [
+        ("pico/planning/check.py", "planning/test_planner test_order"),
+        ("tests/test_bench.py", "test_bench test_order"),
+        ("tests/benches.py", "test_bench test_order"),
+        ("tests/planning/conftest.py", "planning/test_planner planning/test_other test_order"),
+    ],
+)
+@pytest.mark.parametrize("text", ["def (\n", "x = 1\0\n"])
+def test_a_file_that_is_no_python_chooses_its_tests_and_is_named(
+    tmp_path: Path, path: str, tests: str, text: str
+) -> None:
+    graph = changed_graph(tmp_path, new={path: text})
+    found = {path: concerned(graph, path)}
+    assert {*found[path]} == {f"tests/{name}.py" for name in tests.split()}
+    assert "cannot be read as Python" in "\n".join(report(found, graph))
+
+
+def test_a_file_of_the_product_that_no_test_names_chooses_all(small: Graph) -> None:
+    assert {*concerned(small, "pico/drawing/page.html")} == {*small.tests}
+
+
+def test_texts_of_deleted_files_are_those_at_the_merge_base(tmp_path: Path) -> None:
+    def git(*words: str) -> None:
+        who = ("-c", "user.name=A", "-c", "user.email=a@localhost")
+        subprocess.run(["git", *who, *words], cwd=tmp_path, check=True, capture_output=True)
+
+    git("init", "-q", "-b", "main")
+    (tmp_path / "one.py").write_text("import two\n")
+    git("add", ".")
+    git("commit", "-qm", "first")
+    (tmp_path / "one.py").unlink()
+    assert deleted(tmp_path, "main", ["one.py", "none.py", "page.md"]) == {"one.py": b"import two\n", "none.py": b""}
 
 
 def test_more_depth_follows_more_imports_through_all_rooms(small: Graph) -> None:
@@ -116,9 +191,9 @@ def test_what_may_change_any_test_chooses_all(small: Graph, path: str) -> None:
 def test_the_answer_says_what_why_and_how_many_of_how_many(small: Graph) -> None:
     found = {path: concerned(small, path) for path in ("pico/planning/check.py", "ui/src/page.ts")}
     assert [*report(found, small)] == [
-        "  pico/planning/check.py: 1 (1 import it by way of pico/planning)",
+        "  pico/planning/check.py: 2 (1 list the files of pico/, 1 import it by way of pico/planning)",
         "  ui/src/page.ts: no test reads it",
-        f"Chosen: 1 of {len(small.tests)} test files, without slow tests. CI runs all of them.",
+        f"Chosen: 2 of {len(small.tests)} test files, without slow tests. CI runs all of them.",
     ]
 
 

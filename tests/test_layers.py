@@ -12,7 +12,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 
 ORDER = (
-    "version", "diagnostics", "disk", "base", "expressions", "resources", "registered", "places", "kernels", "optimize",
+    "version", "diagnostics", "disk", "base", "expressions", "resources", "plug_ins", "registered",
+    "places", "kernels", "optimize",
     "model", "teleop", "control", "content", "geometry",
     "manifest", "optics", "diagnosis", "vision", "motion", "staging", "planning", "twin", "cameras", "drawing",
     "drivers", "emulators",

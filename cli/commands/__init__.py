@@ -40,7 +40,7 @@ def summary() -> dict[str, dict[str, str]]:
 def _line(name: str, path: str) -> tuple[str, int, str, str]:
     """Return the heading of a command, its order there, its name, and what it does."""
     with io.open_code(path) as file:  # to import pathlib takes longer than all of this
-        text = file.read().decode()
+        text = file.read().decode(errors="replace")  # a file put beside PICO's may be anything
     heading = text.partition('\nHEADING = "')[2].partition('"')[0]
     order = text.partition("\nORDER = ")[2].partition("\n")[0]
     place = (heading, int(order)) if heading in HEADINGS and order.isdecimal() else (HEADINGS[-1], LAST)

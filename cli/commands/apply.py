@@ -87,7 +87,8 @@ def apply(
     if what is not None and not isinstance(bench.history.find(what, session.folder), str):
         if refresh:
             plan = bench.plans.refreshed(plan)
-        bench.plans.require_fresh(plan)
+        else:
+            bench.plans.require_permitted(plan)
     elif refresh:
         raise PicoError(error("usage", "--refresh is for a saved plan", hint="without one every plan is a new one"))
     if detach and record:

@@ -65,7 +65,9 @@ def optimize(
     if not goal:
         from pico.bench.ready.registry import takes
 
-        session.show(goals_view, bench.goals.named, bench.goals.alignments(), takes())
+        ready, broken = takes()
+        session.show(goals_view, bench.goals.named, bench.goals.alignments(), ready)
+        session.tell(broken)
         return 0
     if by_arm:
         if offline is not None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
@@ -86,6 +87,11 @@ def plan(
         "exclude": exclude or (),
     }
     found = bench.plans.plan_of(what, folder=session.folder, **options)
+    saved = what is not None and not isinstance(bench.history.find(what, session.folder), str)
+    refused = bench.plans.refusal(found) if saved else None
+    if refused is not None:  # what an edge would say of it now
+        new = [one for one in refused.diagnostics if one not in found.diagnostics]
+        found = replace(found, diagnostics=(*found.diagnostics, *new))
     meanwhile = goes_on(bench)
     session.tell(meanwhile)
     if graph:
@@ -95,7 +101,6 @@ def plan(
     if explain:
         _explain(session, bench, found, component)
     elif not graph:
-        saved = what is not None and found.target.revision != what
         step = f"Apply with `pico apply {what}`." if saved else _next(what, out, _again(exclude, prefer, seek), named)
         if meanwhile:
             step = "A run goes on: plan again when it is over."
@@ -105,6 +110,8 @@ def plan(
     session.draw(picture, "the plan", lambda path: bench.pictures.render(view="top", plan=found, out=path))
     if not explain:
         session.tell(found.diagnostics)
+    if refused is not None:
+        return refused.exit_code
     if found.exit_code:
         return found.exit_code
     return ExitCode.CHANGES if detailed_exitcode and not found.reached else ExitCode.DONE

@@ -90,9 +90,13 @@ def steps(context: typer.Context) -> None:
     Examples:
       pico recipe steps
     """
-    from pico.recipes.registry import known, step_file
+    from pico.recipes.registry import INTERFACE
+    from pico.registered import intact
 
-    Session.of(context).show(steps_view, {name: step_file(name).KIND for name in known()})
+    session = Session.of(context)
+    found, broken = intact(INTERFACE)
+    session.show(steps_view, {name: file.KIND for name, file in found.items()})
+    session.tell(broken)
 
 
 @app.command("from")

@@ -92,7 +92,10 @@ async def _serve(
         books = books_in(folder)
         try:
             known = LOOPBACK | names | (frozenset() if is_loopback(at[0]) else {at[0]})
-            serving = server(create_app(books, known, desks=Desking(WORDS)), *tls)
+            app = create_app(books, known, desks=Desking(WORDS))
+            if app.state.faults:
+                session.report(app.state.faults)
+            serving = server(app, *tls)
             shown = min(names) if names and secure else "localhost" if is_loopback(at[0]) else at[0]
             bare = f"[{shown}]" if ":" in shown else shown
             url = f"{'https' if secure else 'http'}://{bare}:{listener.getsockname()[1]}"

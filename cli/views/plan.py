@@ -295,7 +295,7 @@ def _idle(plan: Plan, beside: Sequence[Change] | None) -> list[str]:
         return [f"Nothing to do ({plan.target.scope}). A plan that names no component is for all."]
     if plan.target.cause == "single":
         return [_as_asked(beside)]
-    return [line for line in (_as_wanted(plan), unread(plan.unread)) if line]
+    return [line for line in (_as_wanted(plan), unread(plan.unread or ())) if line]
 
 
 def _as_wanted(plan: Plan) -> str:
@@ -305,7 +305,7 @@ def _as_wanted(plan: Plan) -> str:
         return f"Nothing to do by numbers. {unfound(goal_name(plan), missed or sorted(said))}"
     if plan.target.cause == "recover":
         return "Nothing to do: no gripper holds anything, and no arm stands where it was stopped."
-    return f"Nothing to do: the bench equals {goal_name(plan)}{in_known(plan.unread)}{excepted(plan.changes)}."
+    return f"Nothing to do: the bench equals {goal_name(plan)}{in_known(plan.unread or ())}{excepted(plan.changes)}."
 
 
 def _as_asked(beside: Sequence[Change] | None) -> str:

@@ -9,9 +9,10 @@ from collections.abc import Generator, Mapping
 from typing import Any, Protocol
 
 from pico.backends.device import Began
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, PicoError
 from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, OperationResult, Outcome
+from pico.plug_ins.faults import CODE, blamed
 
 Progress = Generator[float, None, Mapping[str, Any]]
 """Something in progress: yields the seconds until it wants to be resumed, returns the data of its result."""
@@ -59,6 +60,10 @@ def attempt(
         data = yield from table.act(operation, key)
     except Failed as exc:
         failure = exc
+    except Exception as exc:
+        failure = plug_in_failed(exc)
+        if failure is None:
+            raise
     table.store()
     return OperationResult(
         key=key,
@@ -70,3 +75,9 @@ def attempt(
         ended=table.now,
         data=data,
     )
+
+
+def plug_in_failed(exc: Exception) -> Failed | None:
+    """Return the failure of an operation that came to a mistake of a plug-in; None if an exception is none of that."""
+    found = next((d for d in exc.diagnostics if d.code == CODE), None) if isinstance(exc, PicoError) else blamed(exc)
+    return Failed(found) if found is not None else None

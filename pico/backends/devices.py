@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, did_you_mean, error
+from pico.plug_ins.calling import Interface, function, having, loaded
+from pico.plug_ins.known import entries
 
 if TYPE_CHECKING:
     from pico.backends.device import Device
@@ -23,6 +25,9 @@ HARDWARE, EMULATED = "hardware", "emulated"
 """The real bench, and its drivers with emulators at the other end."""
 
 
+INTERFACE = Interface(GROUP, {"": function}, {"": having("describe", "observe", "execute", "stop", "close")})
+
+
 def shipped() -> list[str]:
     """Return the names of the devices that come with PICO."""
     return sorted(path.parent.name for path in Path(__file__).parent.glob("*/__init__.py"))
@@ -30,21 +35,18 @@ def shipped() -> list[str]:
 
 def known_devices() -> list[str]:
     """Return the names of all devices: those that come with PICO, and those of plug-ins."""
-    from importlib.metadata import entry_points
-
-    return [*shipped(), *sorted(entry.name for entry in entry_points(group=GROUP))]
+    return [*shipped(), *sorted(entries(GROUP))]
 
 
 def opener(name: str) -> Opener:
-    """Return what opens the device of this name; raises PicoError for one that there is not."""
+    """Return what opens the device of this name; raises PicoError for one that there is not, and for a plug-in
+    that is broken."""
     if name in shipped():
         found: Opener = import_module(f"{__package__}.{name}").opened
         return found
-    from importlib.metadata import entry_points
-
-    added = {entry.name: entry for entry in entry_points(group=GROUP)}
+    added = entries(GROUP)
     if name not in added:
         known = [*shipped(), *sorted(added)]
         raise PicoError(error("backend", f"there is no backend `{name}`", hint=did_you_mean(name, known)))
-    plugin: Opener = added[name].load()
+    plugin: Opener = loaded(INTERFACE, added[name])
     return plugin

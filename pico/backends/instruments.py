@@ -89,6 +89,8 @@ def asked(
         return listed(entries, asyncio.run(checked(wanted, properties=properties)))
     import numpy as np
 
+    for entry in wanted.values():  # before its emulator is started with what no driver has checked
+        driver(entry.driver)
     dark = np.zeros((480, 640), np.uint8)
     bench = EmulatedBench(emulated(entries), lambda name, entry: Alone({"frame": dark}))
     try:

@@ -25,7 +25,7 @@ from pico.model.request import PrimitiveRequest, as_stated, asked, value_at
 from pico.model.state import LabState, place_of, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
-from pico.policy.judging.judges import judge_plan
+from pico.policy.judging.judges import judge_plan, refusal_of
 from pico.vision.calibration import calibration_digest, made_at
 
 if TYPE_CHECKING:
@@ -227,19 +227,26 @@ class Plans:
 
         return without_light(self.opened.setup, self.opened.observe(), plan) if plan.operations else plan
 
+    def refusal(self, plan: Plan) -> PicoError | None:
+        """Return why a saved plan must not run now, None if it may: what it stands on has changed (exit code STALE), or
+        one of the judges refuses it, as its edge would."""
+        from pico.bench.saved_plans import changed_since
+
+        seen = self.opened.observe()
+        if found := changed_since(self.opened, plan, seen):
+            return PicoError(found, ExitCode.STALE)
+        able = self.opened.wait(self.opened.edge.describe())
+        return refusal_of(replace(case_of(self.opened, plan, seen), able=able))
+
     def refreshed(self, plan: Plan) -> Plan:
         """Return a new plan from the bench as it stands to the goal of a saved one, for the same components."""
         target = plan.target
         return self.plan(target.revision, targets=target.only or (), exclude=target.exclude or (), align=target.align)
 
-    def require_fresh(self, plan: Plan) -> None:
-        """Look, and raise PicoError (exit code STALE) where the bench, the commit, the goal, the lab or the calibration
-        is not what a saved plan was made from, naming each with what changed and by how much."""
-        from pico.bench.saved_plans import changed_since
-
-        found = changed_since(self.opened, plan, self.opened.observe())
-        if found:
-            raise PicoError(found, ExitCode.STALE)
+    def require_permitted(self, plan: Plan) -> None:
+        """Raise PicoError if a saved plan must not run now, as `refusal` says."""
+        if (why := self.refusal(plan)) is not None:
+            raise why
 
     def explain(self, plan: Plan, component: str | None = None) -> Explanation:
         """Return why a plan is as it is, or what it does with one component; raises PicoError for an unknown one."""

@@ -357,6 +357,7 @@ def _left_out(
         text = f"`pico optimize {name}` was cut short: what it set goes back to where it stood before, then it begins"
         yield Diagnostic("note", "taken-up", f"{text} at the best point that it had measured")
     told = set[str]()
+    whole = next((_WHOLE[op.primitive] for op in began.operations if op.primitive in _WHOLE), "")
     for op in began.operations:
         if op.primitive == "optimize" and op.address in taken_up:
             continue
@@ -366,7 +367,7 @@ def _left_out(
             words = [op.primitive, *(str(v) for k, v in op.arguments.items() if k in ("measurable", "tunable"))]
             command = f"pico do {op.component} {' '.join(words)}"
             if "measurable" in op.arguments:
-                command = f"pico measure {op.component}.{op.arguments['measurable']}"
+                command = whole or f"pico measure {op.component}.{op.arguments['measurable']}"  # its readings, too
             if op.primitive == "optimize":
                 command = f"pico optimize {op.address}"
             if op.primitive in _WHOLE:

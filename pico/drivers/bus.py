@@ -14,10 +14,11 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Generic, TypeVar
 
 from pico.diagnostics import PicoError, error
+from pico.plug_ins.faults import blamed
 
 H = TypeVar("H")
 T = TypeVar("T")
@@ -202,6 +203,9 @@ class Bus(Generic[H]):
         except Exception as exc:
             said = str(exc) or type(exc).__name__
             text = f"{name} failed when it was asked to {what}: {said}"
+            if (mistake := blamed(exc)) is not None and not isinstance(exc, OSError):  # a lost link is no mistake
+                text = f"{name} failed when it was asked to {what}: {mistake.summary}"
+                raise PicoError(replace(mistake, summary=text, address=name)) from exc
             raise PicoError(error("device-lost", text, hint=_HINT, address=name)) from exc
 
     async def close(self) -> None:

@@ -4,17 +4,20 @@ when it is opened, and its vendor's library when its link is."""
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 from importlib.util import find_spec
-from typing import Any
+from typing import Any, cast
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Instrument
 from pico.model.wiring import DeviceEntry
+from pico.plug_ins.calling import Interface, guarded, guarded_object, having, instance, loaded
+from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.drivers"
 
@@ -22,19 +25,33 @@ GROUP = "pico.drivers"
 @cache
 def known() -> Mapping[str, EntryPoint]:
     """Return the drivers that are installed, by name; imports none."""
-    return {entry.name: entry for entry in entry_points(group=GROUP)}
+    return entries(GROUP)
+
+
+INTERFACE = Interface(GROUP, {"": instance(Driver)})
 
 
 def driver(name: str) -> Driver:
     """Return a driver, without its vendor's library; raises PicoError for a name that there is not, and for a plug-in
-    that can't be imported."""
+    that is broken."""
     if name not in known():
         raise PicoError(error("driver", f"there is no driver `{name[:40]}`", hint=did_you_mean(name[:40], known())))
-    try:
-        found: Driver = known()[name].load()
-    except Exception as exc:
-        raise PicoError(error("driver", f"the driver `{name}` can't be imported: {exc}")) from exc
-    return found
+    found: Driver = loaded(INTERFACE, known()[name])
+    return _guarded(found, name)
+
+
+def _guarded(found: Driver, name: str) -> Driver:
+    """Return a driver whose instruments raise PicoError only, whatever a plug-in's do."""
+    one = plug_in(GROUP, known()[name])
+    if own_module(one.module):
+        return found
+
+    make = guarded(one, found.made, having("connect", "stop", "close"), what="made")
+
+    def made(device: str, entry: DeviceEntry, bus: Bus[Any]) -> Instrument:
+        return cast(Instrument, guarded_object(one, make(device, entry, bus)))
+
+    return replace(found, made=made)
 
 
 def missing(found: Driver) -> str:

@@ -6,11 +6,13 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
-from importlib.metadata import EntryPoint, entry_points
+from importlib.metadata import EntryPoint
 
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.emulators.behind import Behind, Emulator, Running
 from pico.model.wiring import DeviceEntry
+from pico.plug_ins.calling import Interface, guarded, having, instance, loaded
+from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.emulators"
 
@@ -18,15 +20,23 @@ GROUP = "pico.emulators"
 @cache
 def known() -> Mapping[str, EntryPoint]:
     """Return the emulators that are installed, by name; imports none."""
-    return {entry.name: entry for entry in entry_points(group=GROUP)}
+    return entries(GROUP)
+
+
+INTERFACE = Interface(GROUP, {"": instance(Emulator)})
 
 
 def emulator(name: str) -> Emulator:
-    """Return an emulator; raises PicoError for a name that there is not."""
+    """Return an emulator; raises PicoError for a name that there is not, and for a plug-in that is broken."""
     if name not in known():
         raise PicoError(error("emulator", f"there is no emulator `{name[:40]}`", hint=did_you_mean(name[:40], known())))
-    found: Emulator = known()[name].load()
-    return found
+    found: Emulator = loaded(INTERFACE, known()[name])
+    one = plug_in(GROUP, known()[name])
+    return (
+        found
+        if own_module(one.module)
+        else replace(found, started=guarded(one, found.started, having("address", "close"), what="started"))
+    )
 
 
 class EmulatedBench:

@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from pico.backends.device import Capabilities
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, read_diagnostic, warning
 from pico.execution.graph import set_back
 from pico.model.comparing.drift import drift_of, uncertain
 from pico.model.diff import Change, diff_observed, show_value, unread_values, within_trim
@@ -234,4 +234,4 @@ def told_by(events: Sequence[Event]) -> Iterator[Diagnostic]:
     """Yield what went wrong with operations."""
     for event in events:
         if event.kind in ("operation_failed", "operation_unknown"):
-            yield Diagnostic(**{**event.data["diagnostic"], "source": None})
+            yield read_diagnostic(event.data["diagnostic"])

@@ -213,12 +213,30 @@ class LabHistory:
         return Stash(self.folder)
 
     def checkout(self, revision: str | SelectedParts) -> None:
-        """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError.
+        """Check a revision out with git, or write what is taken from one. Moves nothing; raises PicoError, before
+        anything is checked out if the revision requires another PICO, and with the way back if its files are wrong.
 
         The bench stays what it is, for a revision can't change which parts there are.
         """
         if not isinstance(revision, str):
             revision.write(self.folder)
             return
+        self._require_version(revision)
+        before = self.here()
         self.folder.history().checkout(revision)
-        self.folder.reload()
+        try:
+            self.folder.reload()
+        except PicoError as exc:
+            text = f"the files are at {revision} now, and the manifests there are wrong; nothing moved"
+            hint = f"correct them, or `git checkout {before}` goes back"
+            raise PicoError([*exc.diagnostics, error("checked-out", text, hint=hint)], exc.exit_code) from exc
+
+    def _require_version(self, revision: str) -> None:
+        """Raise PicoError if a revision requires another PICO; git itself says what else is wrong."""
+        from pico.manifest.checks.required_version import require_satisfied
+
+        try:
+            found = self.folder.manifests_at(revision).diagnostics
+        except PicoError:
+            return
+        require_satisfied(found)

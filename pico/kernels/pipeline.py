@@ -11,7 +11,8 @@ from itertools import pairwise
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Given, Result
-from pico.kernels.known import kernel, modules
+from pico.kernels.known import INTERFACE, kernel, modules
+from pico.registered import intact
 
 _NAME = r"[a-z][a-z0-9_]*"
 _STEP = re.compile(rf"({_NAME})(?:\((.*)\))?")
@@ -153,7 +154,7 @@ def _number(name: str, parameter: str, value: float) -> float:
 
 
 def _takers(gives: str) -> str:
-    names = sorted(name for name in modules() if kernel(name).KERNEL.takes == gives)
+    names = sorted(name for name, known in intact(INTERFACE)[0].items() if known.KERNEL.takes == gives)
     return f"of {_a(gives)}: {', '.join(names)}" if names else "nothing follows after numbers"
 
 

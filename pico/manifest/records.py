@@ -184,7 +184,8 @@ def _quotes(place: _Place) -> str:
     if not isinstance(node, Scalar):
         return ""
     if str in wanted and not isinstance(node.value, str) and node.value is not None:
-        return f': put it in quotes, "{node.text[:40]}"'
+        least = ">=" if isinstance(place.key, Scalar) and place.key.text == "requires_pico" else ""
+        return f': put it in quotes, "{least}{node.text[:40]}"'
     if node.style and not isinstance(resolve(node.text), str) and str not in wanted:
         return ", without quotes"
     return ""

@@ -137,7 +137,8 @@ class Plan:
     order along the beam in which they are to be redone. `blocking`: of a plan that is impossible for its order of
     moves, constraints that no order keeps, as few as are enough. `errored` where the diagnostics hold an error:
     then the plan must not be applied. `backend`: the device that it is for, and so the bench of this machine;
-    `bench`: that of a coordinator.
+    `bench`: that of a coordinator. `unread`: tunables, by address, that the target gives a value and that no device of
+    the bench read, so that they are compared with nothing; None for none.
     """
 
     schema: str = FORMAT.schema
@@ -157,6 +158,7 @@ class Plan:
     spoils: tuple[Spoiled, ...] | None = None
     blocking: tuple[Blocking, ...] | None = None
     bench: str | None = None
+    unread: tuple[str, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
 
     @property
@@ -169,14 +171,11 @@ class Plan:
         """The state that it leads to, read once however often it is asked for."""
         return _state_of(self.target.state, self.lab.name)
 
-    @property
-    def unread(self) -> tuple[str, ...]:
-        """The tunables, by address, that the target gives a value and that no device of the bench read: they are
-        compared with nothing."""
+    def _unread(self) -> tuple[str, ...] | None:
         live, told = self.base_state.components, {f"{c.component}.{c.tunable}" for c in self.changes}
         wanted = {f"{n}.{t}" for n, part in self.target_state.components.items() if n in live
                   for t in part.values.keys() - live[n].values.keys()}  # fmt: skip
-        return tuple(sorted(wanted - told))
+        return tuple(sorted(wanted - told)) or None
 
     @property
     def errored(self) -> bool:
@@ -252,7 +251,8 @@ class Plan:
 
     def sealed(self) -> Plan:
         """Return the plan with its digest set."""
-        return replace(self, digest=_digest(as_json(self)))
+        found = replace(self, unread=self._unread())
+        return replace(found, digest=_digest(as_json(found)))
 
     def to_json(self) -> str:
         """Return the plan as canonical JSON, as `pico plan --out` writes it."""
@@ -287,4 +287,4 @@ def plan_from_json(text: str | bytes) -> Plan:
         raise PicoError(
             error("plan-file", "this plan was changed after it was saved: its digest does not fit", hint="plan again")
         )
-    return plan
+    return replace(plan, unread=plan._unread()) if "unread" not in written else plan

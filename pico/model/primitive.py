@@ -10,7 +10,10 @@ from dataclasses import field
 from functools import cache
 from typing import Literal
 
+from pico.diagnostics import Diagnostic, PicoError
 from pico.model.record import record
+from pico.plug_ins.calling import Interface, instance, loaded
+from pico.plug_ins.known import entries
 
 GROUP = "pico.primitives"
 
@@ -108,10 +111,30 @@ def known() -> tuple[str, ...]:
     return (*OWN, *sorted(plugged_in()))
 
 
+INTERFACE = Interface(GROUP, {"": instance(Primitive)})
+
+
 @cache
 def plugged_in() -> Mapping[str, Primitive]:
-    """Return the primitives that plug-ins bring, by name; PICO's own can't be replaced."""
-    from importlib.metadata import entry_points
+    """Return the primitives that plug-ins bring, by name, without those that are broken; PICO's own can't be
+    replaced."""
+    return _loaded()[0]
 
-    found = (entry.load() for entry in entry_points(group=GROUP))
-    return {p.name: p for p in found if isinstance(p, Primitive) and p.name not in OWN}
+
+def faults() -> Mapping[str, Diagnostic]:
+    """Return what is wrong with the plug-ins' primitives that are broken, by the name of their entry point."""
+    return _loaded()[1]
+
+
+def _loaded() -> tuple[Mapping[str, Primitive], Mapping[str, Diagnostic]]:
+    found: dict[str, Primitive] = {}
+    wrong: dict[str, Diagnostic] = {}
+    for name, entry in entries(GROUP).items():
+        try:
+            one = loaded(INTERFACE, entry)
+        except PicoError as exc:
+            wrong[name] = exc.diagnostics[0]
+        else:
+            if one.name not in OWN:
+                found[one.name] = one
+    return found, wrong

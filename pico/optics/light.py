@@ -10,13 +10,12 @@ import math
 from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from importlib import import_module
 from typing import cast
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from pico.manifest.checks.elements import module_of
+from pico.manifest.checks.elements import GROUP
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.optics.axis import Optic, Ray, Values, beside_the_edge, first_met, optic_of
@@ -28,6 +27,8 @@ from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
 from pico.optics.part import Element, Met, Part, Straying
 from pico.optics.unseen import SEEN, Unseen, as_it_is
+from pico.plug_ins.calling import Interface, function, instance
+from pico.registered import module
 
 FAINT = 1e-10
 """The share of a source's power below which a beam is followed no more; ghosts of ghosts are below it."""
@@ -136,10 +137,14 @@ def out_of_step(arrivals: tuple[Arrival, ...]) -> str:
     return ""
 
 
+INTERFACE = Interface(GROUP, {"meet": function}, {"meet": instance(Met), "strays": instance(tuple)})
+
+
 @cache
 def element(name: str) -> Element:
-    """Return what an element does; raises ModuleNotFoundError where no file bears its name."""
-    return cast(Element, import_module(module_of(name)))
+    """Return what an element does; raises KeyError where no file bears its name, and PicoError for
+    a plug-in that is broken."""
+    return cast(Element, module(INTERFACE, name))
 
 
 def light_of(

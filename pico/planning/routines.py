@@ -17,6 +17,7 @@ from pico.model.quantities import Value
 from pico.model.record import as_json, record
 from pico.model.setup import Setup
 from pico.motion.types import Blocked, Motion, MovePath, StandingObject, Waypoint
+from pico.plug_ins.calling import Interface, Loading, function, instance
 
 GROUP = "pico.routines"
 
@@ -35,12 +36,13 @@ Asked = Callable[[Setup, Observation, Operation], Routine]
 """Returns what an operation asks an arm to do on the bench as it is seen; raises PicoError where that can't be."""
 
 
+INTERFACE = Interface(GROUP, {"": function}, {"": instance(Routine)})
+
+
 @cache
 def plugged_in() -> Mapping[str, Asked]:
-    """Return the routines that plug-ins bring, by the name of their primitive."""
-    from importlib.metadata import entry_points
-
-    return {entry.name: entry.load() for entry in entry_points(group=GROUP)}
+    """Return the routines that plug-ins bring, by the name of their primitive, each loaded when it is asked for."""
+    return Loading(INTERFACE)
 
 
 def routine_of(setup: Setup, seen: Observation, operation: Operation) -> Routine | None:

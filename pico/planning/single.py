@@ -15,7 +15,7 @@ from pico.model.observation import Observation, live_state, slot_at
 from pico.model.operation import Operation, Reason, new_id
 from pico.model.plan import Target
 from pico.model.pose import Pose
-from pico.model.primitive import primitive
+from pico.model.primitive import faults, primitive
 from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState, with_values
@@ -96,6 +96,8 @@ def do_one(planner: Planner, component: str, name: str, arguments: Mapping[str, 
     if name == "auto_range" and setting is not None and setting.range is None:
         text = f"{component}.{arguments['tunable']} has no `range`, within which to look for the right one"
         raise PicoError(error("range", text, hint="give it one in its type", address=component))
+    if (broken := faults().get(name)) is not None:
+        raise PicoError(broken)
     seconds = primitive(name).seconds
     if name == "auto_range" and "image" in setup.measurables_of(component):
         own = (f"{component}.{arguments.get('tunable')}",)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib import import_module
 from typing import Any, Literal, Protocol, cast
 
 from pico import registered
 from pico.manifest.text.tree import Node
+from pico.plug_ins.calling import Interface, function, instance
 from pico.recipes.doing import Doing
 from pico.recipes.reader import Reader
 from pico.recipes.recipe import Name
@@ -66,6 +66,12 @@ class StepFile(Protocol):
         ...
 
 
+INTERFACE = Interface(
+    GROUP, {"KIND": instance(Kind), "read": function, "run": function},
+    {"read": instance(Given), "run": instance(Mapping)},
+)  # fmt: skip
+
+
 def own() -> tuple[str, ...]:
     """Return the names of the steps that PICO brings but those of the language itself; imports none."""
     return registered.own(FOLDER, GROUP)
@@ -77,5 +83,6 @@ def known() -> tuple[str, ...]:
 
 
 def step_file(name: str) -> StepFile:
-    """Return the file of a step; raises KeyError for a name that there is not."""
-    return cast(StepFile, import_module(registered.modules(FOLDER, GROUP)[name]))
+    """Return the file of a step; raises KeyError for a name that there is not, and PicoError
+    for a plug-in that is broken."""
+    return cast(StepFile, registered.module(INTERFACE, name))

@@ -14,6 +14,7 @@ from fastapi.responses import JSONResponse, Response
 from starlette.exceptions import HTTPException
 
 from pico.diagnostics import PicoError, error
+from pico.plug_ins.faults import blamed
 from pico.server.desk.desks import Desking
 from pico.server.guard.addresses import LOOPBACK
 from pico.server.guard.gatekeeper import Gatekeeper
@@ -57,7 +58,8 @@ def create_app(
     app.state.desking = desks
     app.state.sockets, app.state.git = Counter(), Counter()
     app.state.failures, app.state.requests = Rate(5, 30), Rate(200, 1000)
-    for router in routers():
+    known, app.state.faults = routers()
+    for router in known:
         app.include_router(router)
     app.router.routes.extend(page())
     app.add_middleware(Gatekeeper, names=names)
@@ -102,4 +104,5 @@ async def _http(_: Request, exc: Any) -> Response:
 
 
 async def _failed(_: Request, exc: Any) -> Response:
-    return JSONResponse(failure(PicoError(error("internal", f"the coordinator failed: {type(exc).__name__}"))), 500)
+    found = blamed(exc) or error("internal", f"the coordinator failed: {type(exc).__name__}")
+    return JSONResponse(failure(PicoError(found)), 500)

@@ -33,12 +33,9 @@ def bench(example: Path, tmp_path: Path) -> Bench:
 
 
 def cut_short(bench: Bench, goal: str) -> str:
-    run = bench.run(bench.plan(goal))
-    for event in run:
-        if event.kind == "operation_done" and "error_mm" in event.data:
-            run.halt()
-    assert run.report.outcome == "interrupted"
-    return run.report.run
+    report = ended_when(bench, bench.plan(goal), lambda e: e.kind == "operation_done" and "error_mm" in e.data)
+    assert report.outcome == "interrupted"
+    return report.run
 
 
 def test_a_resumed_run_keeps_its_id_repeats_nothing_and_reaches_the_goal(bench: Bench) -> None:

@@ -7,6 +7,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from attended import ended_when
 from commanding import Pico, edit
 
 import pico as library
@@ -103,11 +104,9 @@ def test_a_saved_plan_is_applied_as_it_is_and_needs_no_word(bench: Path, pico: P
 
 def test_a_run_that_was_stopped_before_its_goals_goes_on_to_them(bench: Path, pico: Pico) -> None:
     with library.open(bench) as opened:
-        run = opened.run(opened.plan("E2-2", align=True))
-        for event in run:
-            if event.kind == "operation_done" and event.component == "lx_100":
-                run.halt()
-        assert run.report.outcome == "interrupted" and run.report.goals is None
+        plan = opened.plan("E2-2", align=True)
+        report = ended_when(opened, plan, lambda e: e.kind == "operation_done" and e.component == "lx_100")
+        assert report.outcome == "interrupted" and report.goals is None
     answer = pico("resume", "--yes")
     assert answer.code == 0 and "1 of 1 goal met" in answer.out
 

@@ -438,7 +438,7 @@ def test_the_list_of_goals_and_the_line_of_a_teleoperation_fit_a_narrow_terminal
                description="the spot in the middle of the camera, by the stages of ly_150 and no other")  # fmt: skip
     from pico.planning.alignment import Alignment
 
-    text = goals.text({"ly_150_centred": one}, [Alignment("ly_150_centred", "never measured")], takes())
+    text = goals.text({"ly_150_centred": one}, [Alignment("ly_150_centred", "never measured")], takes()[0])
     assert all(len(style.plain(line)) <= 80 for line in text.splitlines()) and "ly_150 and no other" in text
     shown = "cam.centroid x -0.706, y 57.64 um" + teleop.PEEKED
     jogged = {"angle": Jogged(unit="deg", longest=100.0, range=(0.0, 360.0))}

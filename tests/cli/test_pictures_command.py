@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from attended import ended_when
 from commanding import Pico, edit
 from pico_cli.views import report as view
 
@@ -39,12 +40,9 @@ def test_a_held_component_is_set_down_before_the_work_goes_on(shel: Path, pico: 
     from pico.bench.bench import Bench
 
     with Bench.open(shel) as bench:
-        run = bench.run(bench.plan("e1"))
-        for event in run:
-            if event.kind == "operation_progress" and event.data.get("phase") == "transit":
-                run.stop()
-        ((robot, held),) = run.report.held.items()
-        assert f"{robot} still holds {held}" in view.text(run.report)
+        report = ended_when(bench, bench.plan("e1"), lambda event: event.data.get("phase") == "transit", at_once=True)
+        ((robot, held),) = report.held.items()
+        assert f"{robot} still holds {held}" in view.text(report)
     again = pico("plan", "e1")
     assert f"{robot} still holds it" in again.out and "warning[held]" not in again.err
     assert pico("apply", "e1", "--auto-approve").code == 0

@@ -70,6 +70,8 @@ def test_what_has_changed_since_is_named_and_nothing_moves(
 ) -> None:
     change(saved, pico)
     before = pico("catalog", "parts", "--json").out
+    shown = pico("plan", PLAN)
+    assert shown.code == 4 and said in shown.err.replace("\n        ", " ") and "can't be applied" in shown.out, shown
     refused = pico("apply", PLAN, "--auto-approve")
     assert refused.code == 4
     assert said in refused.err.replace("\n        ", " ")
@@ -95,3 +97,21 @@ def test_refresh_plans_anew_for_the_same_goal(saved: Path, pico: Pico) -> None:
 def test_a_plan_that_still_fits_is_applied(saved: Path, pico: Pico) -> None:
     pico("sim", "nudge", "p2", "--dx", "0.1")
     assert pico("apply", PLAN, "--auto-approve").code == 0
+
+
+def test_what_its_edge_would_refuse_now_is_said_when_it_is_shown_and_before_anything_is_asked(
+    shel: Path, pico: Pico
+) -> None:
+    part = "    type: half_wave_plate\n"
+    edit(shel / "lab.yaml", part, f"{part}    sample: WSe2-041\n    dose_budget: 10\n")
+    for part, value in (("p1", "angle=3"), ("laser", "emission=true"), ("laser", "shutter=open")):
+        assert pico("set", part, value, "-y").code == 0
+    assert pico("plan", "e1", "--out", "my.plan", "--", "p1.angle").code == 0
+    assert pico("plan", "my.plan").code == 0
+    assert pico("sim", "wait", "4.9s").code == 0  # the sample gets most of its budget; nothing else changes
+    shown, refused = pico("plan", "my.plan"), pico("apply", "my.plan")
+    for answer in (shown, refused):
+        assert answer.code == 7 and "of its 10 mJ" in answer.err, answer
+    assert "can't be applied" in shown.out and "angle" not in refused.out, "it is refused before it is asked about"
+    data = pico("plan", "my.plan", "--json").data
+    assert [one["code"] for one in data["diagnostics"] if one["severity"] == "error"] == ["dose"]

@@ -57,11 +57,12 @@ def test_as_json_each_unknown_value_is_marked(wired_in_part: Path, pico: Pico) -
     rows = pico("status", "--json").data["rows"]
     assert [f"{r['component']}.{r['tunable']}" for r in rows if r["unread"]] == UNREAD
     assert not any(r["exact"] for r in rows if r["unread"])
-    for command in ("drift", "verify"):
+    for command in ("plan", "drift", "verify"):
         assert pico(command, "--json").data["unread"] == UNREAD
 
 
 def test_a_bench_that_reads_all_of_them_is_equal(shel: Path, brought: Brought, pico: Pico) -> None:
     brought(apply_manifest)
     assert "Committed, desired and live are equal." in pico("status").out
-    assert "unread" not in pico("verify", "--json").data
+    for command in ("plan", "verify"):
+        assert "unread" not in pico(command, "--json").data

@@ -6,6 +6,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
+from attended import ended_when
 from commanding import Brought, Pico, edit, succeed
 
 import pico as library
@@ -166,16 +167,15 @@ def test_light_that_does_not_come_any_more_is_a_goal_that_is_lost(built: Path, p
     assert found["suspects"] == [], "what moved is reason enough"
 
 
-def test_from_python_and_what_was_interrupted_is_not_taken_up(built: Path, pico: Pico) -> None:
+@pytest.mark.parametrize("when", ["operation_started", "operation_done"])
+def test_from_python_and_what_was_interrupted_is_not_taken_up(built: Path, pico: Pico, when: str) -> None:
     with library.open(built) as bench:
         found = bench.verify(measure=True)
         assert found.goals is not None and [one.word for one in found.goals] == ["aligned"] and found.light
         assert bench.verify().goals is None
-        run = bench.run(bench.measurements.to_verify().plan)
-        next(iter(run))
-        run.halt()
-        list(run)
-        assert run.report.outcome == "interrupted"
+        report = ended_when(bench, bench.measurements.to_verify().plan, lambda event: event.kind == when)
+        assert report.outcome == "interrupted"
     told = pico("resume", "--yes")
-    assert "`pico verify --measure` did not come to its end" in told.err + told.out
+    assert told.err.count("did not come to its end") == 1, told
+    assert "`pico verify --measure` did not come to its end" in told.err
     assert pico("get", "cam.exposure", "--json").data["values"]["exposure"]["value"] == pytest.approx(0.02)

@@ -16,6 +16,7 @@ from typing import Any
 import forking
 import numpy as np
 import pytest
+from attended import ended_when
 from bench_at import bench_at
 from benches import plan_to, shel, sim
 from relaying import TOKEN, point, relayed
@@ -268,13 +269,10 @@ def test_a_run_is_ended_safely_or_at_once(bench: Bench, how: str) -> None:
 
 def test_resume_undo_and_recover_go_by_what_it_remembers(bench: Bench) -> None:
     before = {name: part.pose for name, part in bench.observe().components.items()}
-    run = bench.run(bench.plan("e1"))
-    for event in run:
-        if event.kind == "operation_done" and "error_mm" in event.data:
-            run.halt()
-    assert run.report.outcome == "interrupted"
+    report = ended_when(bench, bench.plan("e1"), lambda e: e.kind == "operation_done" and "error_mm" in e.data)
+    assert report.outcome == "interrupted"
     plan, id = bench.recovery.resume_plan()
-    assert id == run.report.run
+    assert id == report.run
     going = bench.run(plan, resumes=id)
     list(going)
     assert going.report.run == id and not bench.plan("e1").operations

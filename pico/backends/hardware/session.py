@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from pico.backends import checks, ways
-from pico.backends.attempt import Failed
+from pico.backends.attempt import Failed, plug_in_failed
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began
 from pico.backends.halting import sooner, way_out
@@ -91,6 +91,10 @@ class HardwareSession:
             failure = self._ended() if self._stopped else exc
         except PicoError as exc:
             failure = self._ended() if self._stopped else failed(operation, exc)
+        except Exception as exc:
+            failure = plug_in_failed(exc)
+            if failure is None:
+                raise
         return OperationResult(
             key=key, outcome=failure.outcome if failure else "done", error=failure.diagnostic if failure else None,
             before=before, after=await self._look(operation.component), seconds=self._now() - begun, ended=self._now(),

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from importlib import import_module
 from typing import Protocol, cast
 
 from pico.diagnostics import Diagnostic, PicoError
@@ -13,7 +12,8 @@ from pico.model.observation import Observation
 from pico.model.setup import Setup
 from pico.planning.asked import Asked, Ready
 from pico.planning.nominal import within_reach
-from pico.registered import modules
+from pico.plug_ins.calling import Interface, function, instance
+from pico.registered import intact, module, modules
 
 FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"
@@ -28,19 +28,25 @@ class GoalFile(Protocol):
     make: Callable[[Asked], Ready]
 
 
+INTERFACE = Interface(
+    GROUP, {"TAKES": instance(str), "LEAST": instance(int), "make": function}, {"make": instance(Ready)}
+)
+
+
 def known() -> tuple[str, ...]:
     """Return the names of all ready-made goals, PICO's own first; imports none of them."""
     return tuple(modules(FOLDER, GROUP))
 
 
 def goal_file(name: str) -> GoalFile:
-    """Return the file of a ready-made goal that is known."""
-    return cast(GoalFile, import_module(modules(FOLDER, GROUP)[name]))
+    """Return the file of a ready-made goal that is known; raises PicoError for a plug-in that is broken."""
+    return cast(GoalFile, module(INTERFACE, name))
 
 
-def takes() -> dict[str, str]:
-    """Return what each ready-made goal takes."""
-    return {name: goal_file(name).TAKES for name in known()}
+def takes() -> tuple[dict[str, str], tuple[Diagnostic, ...]]:
+    """Return what each ready-made goal takes, and a warning for each plug-in that is broken."""
+    found, wrong = intact(INTERFACE)
+    return {name: file.TAKES for name, file in found.items()}, wrong
 
 
 def made_ready(setup: Setup, seen: Observation, words: Sequence[str]) -> Ready:

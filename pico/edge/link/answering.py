@@ -16,6 +16,7 @@ from pico.edge.live.following import follow
 from pico.edge.local import LocalEdge
 from pico.edge.protocol import Lease
 from pico.model.record import as_json
+from pico.plug_ins.faults import blamed
 from pico.vision.calibration import Calibration
 
 
@@ -60,7 +61,9 @@ class Answering:
         except PicoError as exc:
             yield wire.failure(exc)
         except Exception as exc:  # the others must go on
-            yield wire.failure(PicoError(error("internal", f"the edge failed: {type(exc).__name__}: {exc}")))
+            yield wire.failure(
+                PicoError(blamed(exc) or error("internal", f"the edge failed: {type(exc).__name__}: {exc}"))
+            )
 
     async def _called(self, name: str, arguments: list[Any]) -> Any:
         if name == "look":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.checks import elements
@@ -17,7 +18,7 @@ from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
 from pico.model.body import Body
 from pico.model.catalog import ComponentType, Footprint, Tunable
-from pico.model.primitive import OWN, known, plugged_in
+from pico.model.primitive import OWN, faults, known, plugged_in
 from pico.model.setpoint import refusal
 
 OBSERVATION_POSITION = 0.02
@@ -57,7 +58,11 @@ def _element(document: Document, name: str) -> Iterator[Diagnostic]:
 
 def _primitives(document: Document, kind: ComponentType) -> Iterator[Diagnostic]:
     for number, name in enumerate(kind.primitives):
-        if name not in OWN and name not in plugged_in():
+        if name in OWN or name in plugged_in():
+            continue
+        if name in (wrong := faults()):  # what does not need it goes on; who asks for it is refused
+            yield replace(wrong[name], severity="warning")
+        else:
             hint = did_you_mean(name[:40], known()) or f"known: {', '.join(known())}; plug-ins bring more"
             at = where(document, "primitives", number)
             yield error("unknown-primitive", f"there is no primitive `{name[:40]}`", hint=hint, source=at)

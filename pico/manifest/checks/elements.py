@@ -17,8 +17,3 @@ def own() -> tuple[str, ...]:
 def known() -> tuple[str, ...]:
     """Return the names of all elements, PICO's own first; imports none."""
     return tuple(registered.modules(FOLDER, GROUP))
-
-
-def module_of(element: str) -> str:
-    """Return the module that says what an element does to light."""
-    return registered.modules(FOLDER, GROUP).get(element, f"{FOLDER}.{element}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Iterator
 
 from pico import version
@@ -21,7 +22,9 @@ def check_requirement(document: Document) -> Iterator[Diagnostic]:
         version.satisfies(requirement)
     except ValueError:
         text = f"{KEY} is `{requirement[:40]}`, which is not a version specifier"
-        hint = f'write one or more comparisons with a version, in quotes: `{KEY}: ">=0.2"`, `{KEY}: ">=0.2,<0.4"`'
+        named = re.search(r"[0-9]+(\.[0-9]+)*", requirement)
+        least = named[0] if named else "0.2"
+        hint = f'write one or more comparisons with a version, in quotes: `{KEY}: ">={least}"`, `{KEY}: ">=0.2,<0.4"`'
         yield error("value", text, hint=hint, source=where(document, KEY))
 
 
@@ -38,9 +41,21 @@ def unsatisfied(documents: Iterable[Document]) -> list[Diagnostic]:
         except ValueError:  # reported by `check_requirement`
             continue
         text = f"this lab requires PICO {requirement}, and this is PICO {version.__version__}"
-        hint = f"install that version: `{version.upgrade_command(requirement)}`"
-        return [error(CODE, text, hint=hint, source=where(document, KEY))]
+        way = version.needed(requirement)
+        return [error(CODE, text, hint=_hint(way, requirement), source=where(document, KEY))]
     return []
+
+
+def _hint(way: str, requirement: str) -> str:
+    """Return what to do about a requirement that this PICO does not satisfy."""
+    if way == "never":
+        return f"no version satisfies all of it: correct `{KEY}`"
+    if way == "newer":
+        return f"install that version: `{version.upgrade_command(requirement)}`"
+    kind = "an older PICO" if way == "older" else "another PICO"
+    command = (version.downgrade_command if way == "older" else version.upgrade_command)(requirement)
+    does = f"`{command}` lists those of this clone" if " tag " in command else f"`{command}`"
+    return f"install {kind}: {does}; or change `{KEY}` if the lab works with this one"
 
 
 def require_satisfied(found: Iterable[Diagnostic]) -> None:

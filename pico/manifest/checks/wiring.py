@@ -14,6 +14,7 @@ from pico.manifest.text.tree import Document
 from pico.model.quantities import QuantityError, dimension
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wiring
+from pico.plug_ins.known import entries
 
 
 def whole_wiring(read: Sequence[tuple[Document, Wiring]], setup: Setup) -> tuple[Wiring, list[Diagnostic]]:
@@ -40,9 +41,7 @@ def whole_wiring(read: Sequence[tuple[Document, Wiring]], setup: Setup) -> tuple
 
 
 def _names(group: str) -> Collection[str]:
-    from importlib.metadata import entry_points
-
-    return {entry.name for entry in entry_points(group=group)}
+    return entries(group).keys()
 
 
 def _other_lab(document: Document, wiring: Wiring, setup: Setup) -> Iterator[Diagnostic]:

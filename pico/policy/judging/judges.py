@@ -160,8 +160,8 @@ def judge_plan(case: PlanCase) -> Plan:
     return judged.plan if judged is case else judged.plan.sealed()
 
 
-def require_permitted(case: PlanCase) -> None:
-    """Raise PicoError with all that the first judge says which refuses a plan.
+def refusal_of(case: PlanCase) -> PicoError | None:
+    """Return all that the first judge says which refuses a plan, None if all let it pass.
 
     Without the present state of the bench only those are asked who don't need it. Exit codes: IMPOSSIBLE for a plan
     with errors (DENIED if all are about light or dose), STALE for a bench or a lab that changed since, DENIED by light,
@@ -172,7 +172,14 @@ def require_permitted(case: PlanCase) -> None:
             continue
         judgment = one.judge(case)
         if judgment.refusals:
-            raise PicoError(judgment.refusals, judgment.exit_code)
+            return PicoError(judgment.refusals, judgment.exit_code)
+    return None
+
+
+def require_permitted(case: PlanCase) -> None:
+    """Raise PicoError if a judge refuses a plan, as `refusal_of` says."""
+    if (why := refusal_of(case)) is not None:
+        raise why
 
 
 def judgment_of(name: str, case: PlanCase) -> Judgment:

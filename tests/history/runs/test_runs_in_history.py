@@ -9,6 +9,7 @@ from contextlib import closing
 from pathlib import Path
 
 import pytest
+from attended import ended_when
 from bench_at import bench_at
 from carrying import (
     apply,
@@ -220,11 +221,8 @@ def test_what_a_hand_did_after_the_run_is_told(lab: Path) -> None:
 
 def test_a_run_that_was_interrupted_and_resumed_is_one(lab: Path) -> None:
     with Bench.open(lab) as bench:
-        run = bench.run(bench.plan("e1"))
-        for event in run:
-            if event.kind == "operation_done":
-                run.halt()
-        assert run.report.outcome == "interrupted"
+        report = ended_when(bench, bench.plan("e1"), lambda event: event.kind == "operation_done")
+        assert report.outcome == "interrupted"
         plan, name = bench.recovery.resume_plan()
         again = bench.run(plan, resumes=name)
         assert [e.kind for e in again][-1] == "run_finished"
@@ -233,16 +231,13 @@ def test_a_run_that_was_interrupted_and_resumed_is_one(lab: Path) -> None:
     assert added(lab, made) == [name]
     found = document(lab, name)
     assert (found.resumed, found.outcome, found.goal) == (1, "done", "e1")
-    assert found.tally["done"] == run.report.done + again.report.done
+    assert found.tally["done"] == report.done + again.report.done
     assert standing(lab, made).run == name
 
 
 def test_what_is_resumed_after_a_commit_is_carried_by_the_next_one(lab: Path) -> None:
     with Bench.open(lab) as bench:
-        run = bench.run(bench.plan("e1"))
-        for event in run:
-            if event.kind == "operation_done":
-                run.halt()
+        ended_when(bench, bench.plan("e1"), lambda event: event.kind == "operation_done")
     commit(lab, "half way")
     with Bench.open(lab) as bench:
         plan, name = bench.recovery.resume_plan()
