@@ -7,6 +7,8 @@ import json
 import os
 import shutil
 import sqlite3
+import subprocess
+import sys
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
@@ -125,10 +127,11 @@ def killed(act: Callable[[], object], at: int) -> bool:
     return os.waitpid(child, 0)[1] != 0
 
 
-def test_killed_at_any_moment_it_leaves_the_old_layout_or_the_new_one(old: Path, tmp_path: Path) -> None:
+def killed_at_each_moment(old: Path, folder: Path) -> None:
+    """Kill the splitting at each of its changes in turn, then once more, and require that it is made whole."""
     at, again = 0, 0
     while True:
-        root = Path(shutil.copytree(old, tmp_path / f"at{at}"))
+        root = Path(shutil.copytree(old, folder / f"at{at}"))
         if not killed(lambda root=root: bench_at(root).folder, at):  # type: ignore[misc]
             break
         killed(lambda root=root: bench_at(root).folder, at // 2)  # type: ignore[misc]
@@ -137,6 +140,19 @@ def test_killed_at_any_moment_it_leaves_the_old_layout_or_the_new_one(old: Path,
         shutil.rmtree(root)
         at += 1
     assert at > 40 and again > 10, "kills before and after the new layout counted"
+
+
+def test_killed_at_any_moment_it_leaves_the_old_layout_or_the_new_one(old: Path, tmp_path: Path) -> None:
+    # in a process that is small, as each of 160 forks of this one would take a twentieth of a second
+    program = (
+        "from test_splitting import Path, killed_at_each_moment, sys\nkilled_at_each_moment(*map(Path, sys.argv[1:]))"
+    )
+    path = os.pathsep.join([str(Path(__file__).parent), str(Path(__file__).parents[1])])
+    done = subprocess.run(
+        [sys.executable, "-c", program, str(old), str(tmp_path)], env=os.environ | {"PYTHONPATH": path}, check=False,
+        capture_output=True, text=True,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
 
 
 def test_what_a_repository_knows_of_the_benches_is_lifted(old: Path) -> None:
