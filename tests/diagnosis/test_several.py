@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -67,9 +68,10 @@ def test_a_leak_a_gain_and_a_retardance_are_told_and_no_dirt(nominal: Nominal, w
 
 
 def test_what_no_cause_explains_is_told_by_reading(nominal: Nominal, what: Chosen) -> None:
-    odd = next(q.name for q in what.quantities if q.name.startswith("p2 null at"))
-    found = judged(nominal, what, (Step("laser", "power", -0.3),), {odd: 0.5})
-    names = [q.name for q in (*what.quantities, *darks(nominal, ("cam",)))]
+    few = tuple(q for q in what.quantities if q.name.startswith(("p2 null", "cam", "laser")))
+    odd = next(q.name for q in few if q.name.startswith("p2 null at"))
+    found = judged(nominal, replace(what, quantities=few), (Step("laser", "power", -0.3),), {odd: 0.5})
+    names = [q.name for q in (*few, *darks(nominal, ("cam",)))]
     left = {name: abs(x) for name, x in zip(names, found.left, strict=True) if math.isfinite(x)}
     assert max(left, key=lambda name: left[name]) == odd and left[odd] > 5
     assert any(group[0].part == "laser" and group[0].kind == "power" for group in found.causes)
