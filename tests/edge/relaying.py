@@ -4,6 +4,7 @@ in who says TOKEN."""
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import secrets
 import signal
@@ -11,7 +12,8 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -79,12 +81,24 @@ def _slowed(pause: float) -> None:
     WorldSession._tell = telling  # type: ignore[method-assign]
 
 
+@cache
+def _import() -> None:
+    """Load what coordinators need before they are forked: each would take half a second to do so."""
+    from pico.edge.network import uplink  # noqa: F401
+    from pico.server.app import create_app
+    from pico.server.store.books import books_in
+
+    with tempfile.TemporaryDirectory() as folder, closing(books_in(Path(folder))) as books:
+        create_app(books).openapi()
+
+
 @contextmanager
 def relayed(root: Path, fidelity: str = "kinematic", *, pause: float = 0.0) -> Iterator[str]:
     """Serve the simulated bench of the lab in `root` as `shel/bench1` of a coordinator; yields its address.
 
     `pause`: so much longer lasts each phase of what its arm does [s].
     """
+    _import()
     reading, writing = os.pipe()
     books = tempfile.TemporaryDirectory()
     child = os.fork()
@@ -92,6 +106,7 @@ def relayed(root: Path, fidelity: str = "kinematic", *, pause: float = 0.0) -> I
         code = 1
         try:
             os.close(reading)
+            gc.freeze()  # nothing that was there before is looked through for garbage
             os.setsid()
             for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
                 signal.signal(number, signal.SIG_DFL)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import os
 import signal
 import sys
@@ -29,6 +30,7 @@ def served(root: Path, fidelity: str = "kinematic") -> Iterator[int]:
         code = 1
         try:
             os.close(reading)
+            gc.freeze()  # nothing that was there before is looked through for garbage
             os.setsid()
             _serve(root, fidelity, writing)
             code = 0
