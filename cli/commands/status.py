@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pico.diagnostics import PicoError
+
 from ..session import Session
 from ..views import status as view
+
+if TYPE_CHECKING:
+    from pico.diagnostics import Diagnostic
 
 HEADING = "The main job"
 ORDER = 20
@@ -28,8 +33,22 @@ def status(
     from pico.history.merge.doubts import unsettled
 
     session = Session.of(context)
-    bench = session.bench()
+    try:
+        bench = session.bench()
+    except PicoError:  # of manifests, most often; what emits meanwhile is reported all the same
+        session.tell(_light(session))
+        raise
     session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
     found = bench.drift.status()
     session.tell(found.cut_short)
     session.show(view, found, every=every)
+
+
+def _light(session: Session) -> tuple[Diagnostic, ...]:
+    """Return which lasers of the bench emit, and how an unattended run left it, by the Lab that the bench keeps."""
+    from pico.bench.cut_short import light
+
+    try:
+        return light(session.bench(safety=True))
+    except PicoError:  # the bench cannot be opened at all, which the caller reports
+        return ()

@@ -74,6 +74,19 @@ def unattended(opened: Opened) -> tuple[Diagnostic, ...]:
     return (warning("unattended", f"{name} ended: {left.why}", detail=reached, hint=hint), *left.wrong)
 
 
+def light(opened: Opened) -> tuple[Diagnostic, ...]:
+    """Return which lasers emit now, and what an unattended run is held to or how it left the bench. Raises PicoError if
+    nothing can be seen."""
+    from pico.bench.lasers import Lasers
+
+    emitting = [
+        warning("light", f"{row.laser} (class {row.laser_class}) emits",
+                hint=f"`pico laser disarm {row.laser}` shuts it", address=row.laser)
+        for row in Lasers(opened).rows() if row.emits
+    ]  # fmt: skip
+    return (*unattended(opened), *emitting)
+
+
 def not_left(opened: Opened) -> bool:
     """Return whether the process of an unattended run was killed, and nobody brought about its end state yet."""
     terms = opened.wait(opened.edge.unattended())

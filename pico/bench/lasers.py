@@ -183,7 +183,9 @@ class Lasers:
             return opened.wait(opened.edge.disarm(laser, person))
         from pico.bench.opened import Opened
 
-        with Opened.open(place.root, bench=place, fidelity=opened.fidelity) as there:  # in another worktree
+        with Opened.open(
+            place.root, bench=place, fidelity=opened.fidelity, safety=True
+        ) as there:  # in another worktree
             return there.wait(there.edge.disarm(laser, person))
 
 
