@@ -58,7 +58,7 @@ def page() -> str:
 def _row(file: StateFile) -> str:
     name = file.pattern.removeprefix("benches/BENCH/").removeprefix("benches/HOST/LAB/BENCH/")
     kept = file.schema or (file.text if file.text else "JSON, version 1")
-    remedy = file.remedy.format(path=name, stem="LASER") if file.remedy else "nothing to do"
+    remedy = file.remedy.format(path=name, aside=f"{name}.damaged", stem="LASER") if file.remedy else "nothing to do"
     cells = (f"`{name}`", file.kind, file.holds, file.writer, kept, file.lost or "nothing", remedy)
     return f"| {' | '.join(cells)} |"
 

@@ -26,6 +26,7 @@ from .views.style import inert_json, paint
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
     from pico.edge.network.remotes import Place
+    from pico.history.lab.folder import Safety
     from pico.history.lab_history import LabHistory
     from pico.places.bench import BenchPlace
 
@@ -111,7 +112,7 @@ class Session:
 
     def bench(
         self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False, calls: bool = True,
-        safety: bool = False,
+        safety: Safety = "",
     ) -> Bench:  # fmt: skip
         """Open the lab of this session; `writing`: to move something, or change files or history. What is called is
         kept then, see `calls`, unless the command does that later itself. `safety`: to switch light off or to empty a
@@ -122,7 +123,7 @@ class Session:
 
         if self.backend is not None:
             opener(self.backend)
-        place = self.place(self.root(safety=safety))
+        place = self.place(self.root(safety=bool(safety)))
         bench = Bench.open(
             self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place, safety=safety
         )
@@ -292,7 +293,7 @@ def _own_words(words: Sequence[str]) -> list[str]:
     return kept
 
 
-def _without_manifests(bench: Bench, safety: bool) -> tuple[Diagnostic, ...]:
+def _without_manifests(bench: Bench, safety: Safety) -> tuple[Diagnostic, ...]:
     """Return what is wrong with manifests that a command for safety does without, and which Lab it goes by."""
     if not safety or (wrong := bench.folder.wrong) is None:
         return ()

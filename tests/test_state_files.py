@@ -23,7 +23,7 @@ from pico.base.state_file import StateFile
 from pico.base.state_files import ALL, entry_of, files_below
 from pico.bench.mending.files import damaged_files
 from pico.diagnostics import PicoError
-from pico.edge import dose, stopping, unattended
+from pico.edge import dose, stopping, terms_store
 from pico.edge.lease import BenchLock
 from pico.places.bench import BenchPlace
 from pico.places.record import read_record
@@ -208,7 +208,7 @@ def test_what_keeps_people_safe_is_never_read_as_nothing(tmp_path: Path) -> None
     with pytest.raises(PicoError, match=r"dose\.json"):
         dose.read(place)
     (place.own / "unattended.json").write_text("{")
-    terms = unattended.read(place)
+    terms = terms_store.read(place)
     assert terms is not None and set(terms.end) == {"shut", "lamps off"} and terms.left is None
     (place.own / "stop.json").write_text("{")
     assert stopping.asked_to_stop(place, 1) == "now"

@@ -49,6 +49,6 @@ def _light(session: Session) -> tuple[Diagnostic, ...]:
     from pico.bench.cut_short import light
 
     try:
-        return light(session.bench(safety=True))
+        return light(session.bench(safety="light"))
     except PicoError:  # the bench cannot be opened at all, which the caller reports
         return ()

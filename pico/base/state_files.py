@@ -12,11 +12,9 @@ from functools import cache
 from pathlib import Path
 
 from pico.base.formats import Format
-from pico.base.state_file import StateFile
+from pico.base.state_file import ASIDE, StateFile
 
 BENCH = "benches/BENCH/"
-ASIDE = "`mv {path} {path}.damaged`"
-"""Puts a damaged file where nothing reads it; nothing is deleted."""
 
 # of a bench: what must never be read as empty
 
@@ -52,8 +50,9 @@ LOCK = StateFile(
     "the token: the next one is taken from the clock, above all that were given", "", text="text",
 )  # fmt: skip
 UNATTENDED_LOCK = StateFile(
-    BENCH + "unattended.lock", "process", "the kernel's lock of the process that holds a run to its terms",
-    "`pico run --unattended`", "", "", text="empty",
+    BENCH + "unattended.lock", "process",
+    "the kernel's lock of the process that holds a run to its terms, and these terms until the run is over",
+    "`pico run --unattended`", "", "", text="JSON, or empty",
 )  # fmt: skip
 
 # of a bench: what happened there
@@ -226,7 +225,7 @@ DATA = StateFile(
 )  # fmt: skip
 PAGE = StateFile(
     "gui/**", "record", "the books of `pico gui`: leases, people, runs of its desk", "`pico gui`",
-    "who logged in, and what desks said", "`mv {path} {path}.damaged`; `pico gui` makes them anew", text="folder",
+    "who logged in, and what desks said", ASIDE + "; `pico gui` makes them anew", text="folder",
 )  # fmt: skip
 
 # in Git's own folder, which all worktrees share
@@ -238,7 +237,7 @@ RECORD = StateFile(
 )  # fmt: skip
 RECORD_LOCK = StateFile(
     ".git/pico/bench.lock", "process", "the lock of who changes that", "the first command that moves a bench", "", "",
-    text="empty",
+    code="folder", text="empty",
 )  # fmt: skip
 SEALS = StateFile(
     ".git/pico/labs.json", "safety", "the SHA-256 of the Lab that each bench adopted", "`pico bench update`",
@@ -254,7 +253,7 @@ REMOTES = StateFile(
     "their names and addresses", "delete it, then `pico remote add NAME URL`", code="remote",
 )  # fmt: skip
 PAGE_LOCK = StateFile(
-    ".git/pico/[LAB-]/gui.lock", "process", "the lock of `pico gui`", "`pico gui`", "", "", text="empty",
+    ".git/pico/[LAB-]/gui.lock", "process", "the lock of `pico gui`", "`pico gui`", "", "", code="remote", text="empty",
 )  # fmt: skip
 
 GIT_CACHES = StateFile(
@@ -267,7 +266,8 @@ GIT_DATA = StateFile(
     text="folder",
 )  # fmt: skip
 GIT_LOCK = StateFile(
-    ".git/pico/write.lock", "process", "the lock of who commits", "`pico commit`, `pico checkout`", "", "", text="text",
+    ".git/pico/write.lock", "process", "the lock of who commits", "`pico commit`, `pico checkout`", "", "",
+    code="folder", text="text",
 )  # fmt: skip
 GIT_MESSAGE = StateFile(
     ".git/pico/COMMIT_EDITMSG", "process", "a message while it is edited", "`pico commit -e`", "", "", text="text",

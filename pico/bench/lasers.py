@@ -184,7 +184,7 @@ class Lasers:
         from pico.bench.opened import Opened
 
         with Opened.open(
-            place.root, bench=place, fidelity=opened.fidelity, safety=True
+            place.root, bench=place, fidelity=opened.fidelity, safety="light"
         ) as there:  # in another worktree
             return there.wait(there.edge.disarm(laser, person))
 

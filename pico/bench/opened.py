@@ -17,7 +17,7 @@ from pico.diagnostics import PicoError, did_you_mean, error
 from pico.edge.network.meant import meant
 from pico.edge.network.opening import holder_of
 from pico.edge.network.remotes import Far, Place
-from pico.history.lab.folder import LabFolder
+from pico.history.lab.folder import LabFolder, Safety
 from pico.history.lab_history import LabHistory
 from pico.manifest.load import find_lab, find_lab_of_bench
 from pico.model.observation import Observation
@@ -62,7 +62,7 @@ class Opened:
         fidelity: str | None = None,
         speed: float | None = None,
         bench: str | Place | None = None,
-        safety: bool = False,
+        safety: Safety = "",
     ) -> Self:
         """Open the lab that `path` lies in. Nothing is contacted yet, but for a bench on the network.
 

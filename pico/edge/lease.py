@@ -18,6 +18,7 @@ from pathlib import Path
 from typing import Any
 
 from pico.base.clock import now as clock_now
+from pico.base.plain_files import open_lock, other_than_file
 from pico.base.state_files import ENROLMENT, HOLDER, JOURNAL, LOCK
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, writing
@@ -82,7 +83,7 @@ class BenchLock:
         """Return the token that the coordinator of the bench gave; 0 where it has none."""
         if self.granting is not None:
             return self.granting.token()
-        if ENROLMENT.path(self._folder).exists():
+        if os.path.lexists(ENROLMENT.path(self._folder)):
             raise PicoError(enrolled(self._folder), ExitCode.LOCKED)
         return 0
 
@@ -147,10 +148,13 @@ class BenchLock:
             self.release()
 
     def _open(self) -> int:
+        path = LOCK.path(self._folder)
         with self._writing():
             make_own_folder(self._place.attached.root)
             self._folder.mkdir(parents=True, exist_ok=True)
-            return os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+            if other_than_file(path) or path.is_symlink():
+                return LOCK.lock(path)  # which says what it is
+            return open_lock(path)
 
     def _writing(self) -> AbstractContextManager[None]:
         return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
@@ -181,7 +185,7 @@ class BenchLock:
     def holder(self) -> Holder | None:
         """Return who has the lock, or None where nobody has it; takes it for no longer than the question needs."""
         try:
-            file = os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CLOEXEC)
+            file = open_lock(LOCK.path(self._folder), make=False)
         except OSError:
             return None
         try:

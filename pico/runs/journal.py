@@ -10,7 +10,9 @@ times are for people, for a clock can be set back.
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import sqlite3
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -20,6 +22,8 @@ from typing import Any, Literal, cast
 
 from pico.base.clock import now_ms
 from pico.base.database import EMPTY, is_emptied, make_database
+from pico.base.plain_files import other_than_file
+from pico.base.state_files import JOURNAL
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import refusing, unwritable
 from pico.model.observation import ObservedComponent, observed_from_json
@@ -127,6 +131,7 @@ class Journal:
         self._in_commits: dict[str, FromCommit | None] = {}
         self._count = ChangeCount(path)
         marked, least = marked_run(path), self._count.least()
+        _require_files(path)
         with self._guarded():
             if is_emptied(path):
                 raise sqlite3.DatabaseError(EMPTY)
@@ -512,6 +517,16 @@ def _upgrade(version: int) -> str:
     return f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;"
 
 
+def _require_files(path: Path) -> None:
+    """Raise PicoError if something other than a file is where a journal or what SQLite has beside it belongs, or if
+    this user may not read it: SQLite would only say that it cannot open or write its database."""
+    for one in (path, path.with_name(f"{path.name}-wal"), path.with_name(f"{path.name}-shm")):
+        if what := other_than_file(one):
+            raise PicoError(JOURNAL.unreadable(one, f"it is {what}"))
+        if one.exists() and not os.access(one, os.R_OK):
+            raise PicoError(JOURNAL.unreadable(one, os.strerror(errno.EACCES)))
+
+
 def _is_open(path: Path) -> bool:
     """Whether a process writes a journal, or was killed while it did: not all records are in the file itself then."""
     log = path.with_name(f"{path.name}-wal")
@@ -534,6 +549,8 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
         return error("journal", f"the journal {path} is locked", hint=hint)
     if isinstance(exc, sqlite3.DatabaseError) and not isinstance(exc, sqlite3.OperationalError):
         return error("journal", f"the journal {path} is damaged: {text}", hint=SALVAGE)
+    if "readonly database" in text and path.exists() and not os.access(path, os.W_OK) and not refusing(path.parent):
+        return JOURNAL.unreadable(path, os.strerror(errno.EACCES))
     return unwritable(path, refusing(path.parent) or exc, what=f"the journal {path} cannot be used", code="journal")
 
 

@@ -4,13 +4,16 @@ say."""
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 from commanding import Brought, Pico, apply_manifest
 
+from pico.backends.sim.store import load_world, save_world
 from pico.bench.bench import Bench
+from pico.places.bench import BenchPlace
 
 
 def unreadable(lab: Path) -> None:
@@ -37,7 +40,7 @@ def gone(lab: Path) -> None:
 
 
 def emits(lab: Path) -> bool:
-    with Bench.open(lab, safety=True) as bench:
+    with Bench.open(lab, safety="light") as bench:
         return any(row.emits for row in bench.lasers.rows())
 
 
@@ -75,13 +78,28 @@ def test_a_laser_is_shut_by_the_manifests_if_the_lab_of_the_bench_is_damaged(
 def test_a_laser_is_shut_by_head_if_both_are_damaged(lit: Path, pico: Pico) -> None:
     (lit / ".pico/benches/sim/lab.json").write_text("{")
     unreadable(lit)
+    assert pico("recover", "--yes").code != 0, "no arm moves by a Lab that the bench did not adopt"
     assert pico("laser", "disarm", "laser").code == 0 and not emits(lit)
 
 
+def held(lab: Path) -> str:
+    """Let the arm hold p1 above its place, and return which part it holds."""
+    with Bench.open(lab) as bench:
+        world, _ = load_world(bench.setup, BenchPlace(lab, "sim"))
+    robot = replace(world.robots["arm1"], holding="p1")
+    save_world(BenchPlace(lab, "sim"), replace(world.with_body("p1", presence="held"), robots={"arm1": robot}))
+    return "p1"
+
+
 @pytest.mark.parametrize("spoil", [unreadable, of_a_newer_pico, gone])
-def test_a_bench_is_stopped_and_cleared_by_its_own_lab(lit: Path, pico: Pico, spoil: Callable[[Path], None]) -> None:
+def test_a_bench_is_stopped_and_a_hand_emptied_by_the_lab_of_the_bench(
+    lit: Path, pico: Pico, spoil: Callable[[Path], None]
+) -> None:
+    part = held(lit)
     spoil(lit)
     assert pico("stop", "--now").code == 0
     cleared: Any = pico("recover", "--yes")
-    assert cleared.code == 0, cleared
-    assert "internal" not in cleared.err
+    assert cleared.code == 0 and "internal" not in cleared.err, cleared
+    with Bench.open(lit, safety="light") as bench:
+        seen = bench.observe()
+    assert seen.robots["arm1"].holding is None and seen.components[part].presence == "seen"

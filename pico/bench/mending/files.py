@@ -14,7 +14,7 @@ from pico.base.state_file import StateFile, quoted
 from pico.base.state_files import files_below
 from pico.bench.mending.journal import examine_journal, missing_journal
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.edge import armings, dose, own_lab
+from pico.edge import armings, dose, own_lab, terms_store
 from pico.edge.network.enrolment import read_enrolment
 from pico.edge.network.remotes import known as known_remotes
 from pico.places.bench import BenchPlace, local_benches
@@ -86,6 +86,8 @@ def _as_read(root: Path) -> Iterator[Diagnostic]:
         asked += [lambda at=place: own_lab.read(at), lambda at=place: dose.read(at)]  # type: ignore[misc]
         asked += [lambda at=place: read_enrolment(at)]  # type: ignore[misc]
         yield from missing_journal(place)
+        if (gone := terms_store.missing(place)) is not None:
+            yield gone
         for one in armings.kept(place):
             if one.broken:
                 path = place.folder / armings.FOLDER / f"{one.laser}.json"

@@ -6,13 +6,13 @@ import asyncio
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from pico.base.state_files import UNATTENDED
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.edge.local.apparatus import Apparatus
 from pico.edge.local.sight import Sight
 from pico.model.observation import Observation
+from pico.model.record import as_json
 from pico.places.attachment import require_attached
 
 if TYPE_CHECKING:
@@ -152,8 +152,23 @@ class Licensing:
 
     async def unattended(self) -> Terms | None:
         """Return the terms of an unattended run; see `pico.edge.contract.EdgeLicensing`."""
-        known = self._alone is not None or UNATTENDED.path(self._apparatus.place.folder).exists()
+        from pico.edge.terms_store import is_known
+
+        known = self._alone is not None or is_known(self._apparatus.place)
         return self.alone.known() if known else None
+
+    def restore_terms(self) -> None:
+        """Write the terms of an unattended run that was killed anew if their file is gone; raises PicoError."""
+        from pico.edge.terms_store import restore
+
+        restore(self._apparatus.place)
+
+    def about(self) -> dict[str, Any]:
+        """Return what the journal holds about a run for the terms that it is held to; nothing if it is held to none."""
+        from pico.edge.terms_store import ABOUT
+
+        terms = self._alone.terms if self._alone is not None else None
+        return {} if terms is None or terms.left is not None else {ABOUT: as_json(terms)}
 
     async def close(self) -> None:
         """Hold nothing any more: this process ends."""

@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git import command as git
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 FULL = 40
 """Digits of the whole id of a commit."""
+Safety = Literal["", "light", "hands"]
+"""For what a bench is opened whatever its manifests say: to switch light off, or to empty hands, too."""
 BenchFiles = tuple[tuple[str, bytes], ...]
 
 
@@ -84,12 +86,13 @@ class LabFolder:
     proposes another one; if it keeps none yet, what the working tree says now. Else `own` is None.
 
     `safety`: for what switches light off or empties a hand, which never depends on the manifests. If they are wrong or
-    gone, the bench is the Lab that it keeps as its own, else that of HEAD, and `wrong` says what is wrong.
+    gone, the bench is the Lab that it keeps as its own, and `wrong` says what is wrong. To switch `light` off, and not
+    to move an arm, it may also be what the manifests describe, or HEAD, if its own Lab is damaged.
     """
 
     def __init__(
         self, path: Path, *, history: bool = False, place: Place | None = None, keeps: bool = False,
-        safety: bool = False,
+        safety: Safety = "",
     ) -> None:  # fmt: skip
         self.root, self.place = find_lab_of_bench(path) if safety else find_lab(path), place
         own_folder(self.root)
@@ -105,7 +108,7 @@ class LabFolder:
             self.reload()
         except PicoError as exc:
             self.wrong = exc
-            if not (safety and self._go_by_own()) and not ((history or safety) and self._stand_in()):
+            if not (safety and self._go_by_own()) and not ((history or safety == "light") and self._stand_in()):
                 raise
 
     @property
@@ -189,13 +192,13 @@ class LabFolder:
         self.setup, self.state = manifests.require()
         self._files = files
 
-    def _own_lab(self, place: Place, safety: bool) -> OwnLab | None:
-        """Return the Lab that the bench keeps. If that is damaged, and light is to be switched off (`safety`), the
-        bench is what its manifests describe, and no other Lab is compared with it. Raises PicoError."""
+    def _own_lab(self, place: Place, safety: Safety) -> OwnLab | None:
+        """Return the Lab that the bench keeps. If that is damaged, and only light is to be switched off, the bench is
+        what its manifests describe, and no other Lab is compared with it. Raises PicoError."""
         try:
             return _kept(place)
         except PicoError as exc:
-            if not safety:
+            if safety != "light":
                 raise
             self.wrong, self._keeps = exc, False
             return None

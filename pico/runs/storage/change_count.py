@@ -13,6 +13,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from pico.base.plain_files import open_file, read_text, set_aside
 from pico.base.state_files import CHANGE_COUNT, JOURNAL
 
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
@@ -32,7 +33,7 @@ class ChangeCount:
         """Return how many changes the journal has at least; 0 if the file is missing or damaged."""
         with suppress(OSError, ValueError, UnicodeError):
             if self._path is not None:
-                text, _, checksum = self._path.read_text(encoding="ascii").strip().rpartition(" ")
+                text, _, checksum = read_text(self._path, "ascii").strip().rpartition(" ")
                 if int(checksum) == zlib.crc32(text.encode()):
                     durable, written, *boot = text.split(" ")
                     return int(written) if boot == [_booted()] else int(durable)
@@ -45,8 +46,11 @@ class ChangeCount:
         self._durable = changes if durable else self._durable
         text = f"{self._durable} {changes} {_booted()}"
         with suppress(OSError):
+            if self._file is not None and not os.fstat(self._file).st_nlink:  # somebody deleted it
+                self.close()
             if self._file is None:
-                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
+                set_aside(self._path)
+                self._file = open_file(self._path, os.O_WRONLY | os.O_CREAT)
             os.pwrite(self._file, f"{text} {zlib.crc32(text.encode())}".ljust(LENGTH).encode(), 0)
 
     def close(self) -> None:
