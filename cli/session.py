@@ -303,12 +303,17 @@ def _without_manifests(bench: Bench, safety: Safety) -> tuple[Diagnostic, ...]:
 
 
 def lost_warning(place: Place, *, chosen: bool = False) -> tuple[Diagnostic, ...]:
-    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused. `chosen`: no
-    option named it; then also if another bench is gone, for the worktree may have chosen that one."""
+    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused, but for a
+    table of emulated devices, which begins anew. `chosen`: no option named it; then also if another bench is gone, for
+    the worktree may have chosen that one."""
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench, others_lost
 
     if not isinstance(place, BenchPlace):
         return ()
     found = [lost_bench(place), *(others_lost(place) if chosen else ())]
+    if place.name == EMULATED:
+        from pico.edge.recovery import lost_table
+
+        found.append(lost_table(place))
     return tuple(replace(one, severity="warning") for one in found if one)

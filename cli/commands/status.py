@@ -46,7 +46,7 @@ def status(
 
 def _light(session: Session) -> tuple[Diagnostic, ...]:
     """Return which lasers of the bench emit, and how an unattended run left it, by the Lab that the bench keeps."""
-    from pico.bench.cut_short import light
+    from pico.bench.lasers import light
 
     try:
         return light(session.bench(safety="light"))

@@ -299,9 +299,22 @@ def _pattern(pattern: str) -> re.Pattern[str]:
 
 
 def files_below(root: Path) -> Iterator[tuple[Path, str, StateFile | None]]:
-    """Yield each file below `.pico` of the lab in `root`: its path, its path below that folder, and its entry."""
-    top = root / ".pico"
-    for path in sorted(top.rglob("*")):
-        if path.is_file() or path.is_symlink():
-            name = path.relative_to(top).as_posix()
-            yield path, name, entry_of(name)
+    """Yield each file below `.pico` of the lab in `root`: its path, its path below that folder, and its entry. So is
+    whatever else lies in the place of a file: a folder, a named pipe, a link."""
+    yield from _files(root / ".pico", "")
+
+
+def files_in_git(common: Path) -> Iterator[tuple[Path, str, StateFile | None]]:
+    """Yield each file of PICO in Git's own folder `common` as `files_below` does."""
+    yield from _files(common / "pico", ".git/pico/")
+
+
+def _files(top: Path, before: str) -> Iterator[tuple[Path, str, StateFile | None]]:
+    for path in sorted(top.glob("*")):
+        name = before + path.name
+        entry = entry_of(name)
+        is_place_of_file = entry is not None and "**" not in entry.pattern
+        if not path.is_dir() or path.is_symlink() or is_place_of_file:
+            yield path, name, entry
+        else:
+            yield from _files(path, f"{name}/")

@@ -24,6 +24,11 @@ from pico.model.record import as_json, record
 if TYPE_CHECKING:
     from pico.edge.network.remotes import Place
 
+CODE = "cut-short"
+"""The code of what is said of a command or a run that was killed or interrupted."""
+EARLY = "before it moved anything"
+"""How a command or a run was killed of which nothing has to be taken back."""
+
 
 @record
 class Intention:
@@ -78,7 +83,7 @@ def told(place: Place) -> tuple[Diagnostic, ...]:
     found = killed(place)
     if found is None:
         return ()
-    return (warning("killed-early", _text(found), hint=f"`pico {found.command}` does it; nothing has changed"),)
+    return (warning(CODE, _text(found), hint=f"`pico {found.command}` does it; nothing has changed"),)
 
 
 def require_named(place: Place, command: str, run: str) -> None:
@@ -87,13 +92,13 @@ def require_named(place: Place, command: str, run: str) -> None:
     from pico.diagnostics import error
 
     if (found := killed(place)) is not None:
-        raise PicoError(error("killed-early", f"{_text(found)}; `pico {command}` would be about {run}",
+        raise PicoError(error(CODE, f"{_text(found)}; `pico {command}` would be about {run}",
                               hint=f"`pico {command} {run.split()[1]}` says that this is meant"))  # fmt: skip
 
 
 def _text(found: Intention) -> str:
     when = f"{found.at[:16].replace('T', ' ')} UTC"
-    return f"what was called last (`pico {found.command}`, {when}) was killed before it moved anything"
+    return f"what was called last (`pico {found.command}`, {when}) was killed {EARLY}"
 
 
 def _path(place: Place) -> Path:
