@@ -40,6 +40,7 @@ ELSEWHERE = {
     "benches/BENCH/unattended.lock": "unattended runs", "benches/BENCH/armed/LASER.json": "lasers that are armed",
     ".git/pico/armed/DIGEST": "lasers that are armed", "benches/BENCH/mornings.json": "light on a detector",
     "benches/BENCH/recipes/RUN.jsonl": "recipes", "benches/BENCH/recipes/RUN.out": "detached recipes",
+    "benches/BENCH/recipes/RUN.lines": "recipes",
     "benches/BENCH/recipes/RUN.pid": "detached recipes", "benches/BENCH/points/KEY.jsonl": "searches under way",
     "benches/BENCH/run": "runs under way", "benches/BENCH/holder.json": "runs under way",
     "benches/BENCH/called.json": "runs under way", "benches/BENCH/seen.json": "cameras that look",
@@ -549,6 +550,15 @@ def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on
     log.begun("1", {"set": 12}, (None, None), "set")
     whole = log.path.read_bytes()
     assert set(Log.read(log.path).steps) == {"1"} and pico("doctor").code == 0
+    log.path.write_bytes(whole[: whole.index(b"\n") + 1])  # a line is missing, and those that are left are sound
+    with pytest.raises(PicoError, match="its last line is missing"):
+        Log.read(log.path)
+    assert str(log.path) in pico("doctor").err
+    count = log.path.with_suffix(".lines")
+    before = count.read_bytes()
+    count.unlink()
+    assert Log.read(log.path).steps == {}, "of a run of an earlier PICO nobody counted the lines"
+    count.write_bytes(before)
     for at in (0, whole.index(b"recipes/x"), whole.index(b'"given": "') + 12, len(whole) - 20):
         log.path.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
         with pytest.raises(PicoError, match=r"aaaaaa\.jsonl"):

@@ -46,9 +46,12 @@ def status(
 
 def _light(session: Session) -> tuple[Diagnostic, ...]:
     """Return which lasers of the bench emit, and how an unattended run left it, by the Lab that the bench keeps."""
+    from pico.bench.bench import Bench
     from pico.bench.lasers import light
 
     try:
-        return light(session.bench(safety="light"))
+        place = session.place(session.root(safety=True))
+        with Bench.open(session.folder, backend=session.backend, bench=place, safety="light") as bench:
+            return light(bench)
     except PicoError:  # the bench cannot be opened at all, which the caller reports
         return ()

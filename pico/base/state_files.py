@@ -80,6 +80,10 @@ RECIPE_LOG = StateFile(
     ASIDE + ", and begin the recipe anew: what it did is in the runs of the bench", code="recipe-log",
     text="JSON lines, pico.recipe_run/v1",
 )  # fmt: skip
+RECIPE_LINES = StateFile(
+    BENCH + "recipes/RUN.lines", "process", "how many lines the log of a run has, to notice one that lost its end",
+    "`pico run`", "", "", text="text",
+)  # fmt: skip
 RECIPE_OUTPUT = StateFile(
     BENCH + "recipes/RUN.out", "record", "what a detached run of a recipe said", "`pico run --detach`",
     "what it said", "", text="text",
@@ -275,7 +279,7 @@ GIT_MESSAGE = StateFile(
 
 ALL = (
     DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB, MORNINGS, RECIPE_LOG,
-    RECIPE_OUTPUT, CHANGE_COUNT,
+    RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
     RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,
     EARLIER, SPLITTING, SPLIT_LOCK, DATA, PAGE, RECORD, RECORD_LOCK, SEALS, ARMED_SEAL, REMOTES, PAGE_LOCK,

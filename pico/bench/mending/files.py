@@ -48,6 +48,8 @@ def damaged_files(root: Path, read_log: Callable[[Path], object]) -> tuple[Diagn
 def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iterator[Diagnostic]:
     if path.name.startswith(".") and ".tmp" in path.name:  # of a process that was killed; the next lock clears it
         return
+    if entry is state_files.DAMAGED:  # it was set aside, whatever it is
+        return
     if path.is_symlink():
         text = f"{path} is a symbolic link, and PICO would write where it points"
         yield error("symlink", text, hint=f"delete it: `rm {quoted(path)}`")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from pico.model.trace.dose import Dose
     from pico.model.trace.unattended import Left, Terms
 
+DISARMING = "pico laser disarm"
 SHUT_WITHIN = 150
 """So often is looked whether who has the bench has shut a laser that was disarmed."""
 AGAIN = 0.02
@@ -71,12 +71,37 @@ class Licensing:
         keep(own.place, ended(own.setup, known.get(laser), laser, by, (await own.device.describe()).name, now))
         for _ in range(SHUT_WITHIN):
             if edge.lease is None and await edge.holder() is None:
-                with suppress(PicoError):  # who takes the bench next shuts it, or has it and does
-                    await edge.release(await edge.acquire("pico laser disarm"))
+                try:
+                    await edge.release(await edge.acquire(DISARMING))
+                except PicoError as exc:
+                    if exc.exit_code != ExitCode.LOCKED:  # nobody else shuts it: a journal that can't be used, say
+                        return await self._shut_unrecorded(laser)
             if laser not in {one.laser for one in await self.armings()}:
                 return True
             await asyncio.sleep(AGAIN)
         return False
+
+    async def _shut_unrecorded(self, laser: str) -> bool:
+        """Shut a laser though the bench cannot be taken as usual: light never stays on for a journal that is damaged, a
+        Lab that is, or a question that is open. Nothing records it. Returns whether it is shut; raises PicoError."""
+        from pico.edge.armings import forget
+        from pico.edge.emission import shutting
+        from pico.edge.lease import BenchLock
+        from pico.edge.running import new_run_id
+
+        own = self._apparatus
+        with BenchLock(own.place, own.now).held(DISARMING) as lease:
+            await own.device.take(lease.token, lambda _: None, lambda: None)
+            try:
+                operation = shutting(own.setup, await self._sight.observe(), laser, "it is disarmed")
+                if operation is not None:
+                    key = f"{new_run_id()}/{operation.id}/1"
+                    if (await own.device.execute(operation, key, lambda _: None)).outcome != "done":
+                        return False
+            finally:
+                await own.device.leave()
+        forget(own.place, laser)
+        return True
 
     def arming_over(self) -> bool:
         """Return whether an arming has ended since this was asked last, while the bench is free."""

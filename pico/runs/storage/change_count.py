@@ -21,16 +21,16 @@ LENGTH = 100
 """Bytes of the file."""
 
 
-class ChangeCount:
-    """The count beside the journal at `path`; none beside a copy under another name."""
+class Count:
+    """The count in the file at `path` of what another file holds: changes, or lines; None keeps none."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = CHANGE_COUNT.path(path.parent) if path.name == JOURNAL.name else None
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
         self._durable = 0
         self._file: int | None = None
 
     def least(self) -> int:
-        """Return how many changes the journal has at least; 0 if the file is missing or damaged."""
+        """Return how many the other file holds at least; 0 if the count is missing or damaged."""
         with suppress(OSError, ValueError, UnicodeError):
             if self._path is not None:
                 text, _, checksum = read_text(self._path, "ascii").strip().rpartition(" ")
@@ -40,7 +40,7 @@ class ChangeCount:
         return 0
 
     def note(self, changes: int, *, durable: bool) -> None:
-        """Keep how many changes the journal has now; a disk that takes nothing keeps what was there."""
+        """Keep how many there are now; a disk that takes nothing keeps what was there."""
         if self._path is None:
             return
         self._durable = changes if durable else self._durable
@@ -58,6 +58,13 @@ class ChangeCount:
         if self._file is not None:
             os.close(self._file)
             self._file = None
+
+
+class ChangeCount(Count):
+    """The count of changes of the journal at `path`, beside it; none beside a copy under another name."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(CHANGE_COUNT.path(path.parent) if path.name == JOURNAL.name else None)
 
 
 @cache
