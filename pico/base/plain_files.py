@@ -6,6 +6,7 @@ from __future__ import annotations
 import errno
 import os
 import stat
+from itertools import count
 from pathlib import Path
 
 _KINDS = (
@@ -65,10 +66,8 @@ def open_lock(path: Path, *, make: bool = True) -> int:
 
 def aside_of(path: Path) -> Path:
     """Return a free name beside `path` for what is set aside: `NAME.damaged`, `NAME.damaged-2` ..."""
-    number, aside = 1, path.with_name(f"{path.name}.damaged")
-    while os.path.lexists(aside):
-        number, aside = number + 1, path.with_name(f"{path.name}.damaged-{number}")
-    return aside
+    names = (f"{path.name}.damaged{f'-{number}' if number > 1 else ''}" for number in count(1))
+    return next(aside for name in names if not os.path.lexists(aside := path.with_name(name)))
 
 
 def set_aside(path: Path) -> None:

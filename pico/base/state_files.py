@@ -254,7 +254,7 @@ ARMED_SEAL = StateFile(
 )  # fmt: skip
 REMOTES = StateFile(
     ".git/pico/[LAB-]/remotes.json", "record", "the coordinators that the checkout knows by name", "`pico remote add`",
-    "their names and addresses", "delete it, then `pico remote add NAME URL`", code="remote",
+    "their names and addresses", ASIDE + "; then `pico remote add NAME URL`", code="remote",
 )  # fmt: skip
 PAGE_LOCK = StateFile(
     ".git/pico/[LAB-]/gui.lock", "process", "the lock of `pico gui`", "`pico gui`", "", "", code="remote", text="empty",

@@ -14,6 +14,7 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from contextvars import ContextVar
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -248,8 +249,11 @@ def enrolled(folder: Path) -> Diagnostic:
     """Return that a bench is granted by its coordinator alone."""
     try:
         where = ENROLMENT.read(ENROLMENT.path(folder), lambda note: f"{note['bench']} at {note['url']}")
-    except PicoError:  # a bench whose enrolment is damaged stays enrolled
-        where = None
+    except PicoError as exc:  # a bench whose enrolment is damaged stays enrolled
+        found = exc.diagnostics[0]
+        return replace(
+            found, code="enrolled", summary=f"the bench counts as enrolled with a coordinator: {found.summary}"
+        )
     where = where or "a coordinator"
     text = f"this bench is enrolled as {where}, which alone grants it"
     hint = "go through it (`pico remote add`, then `--bench`); looking is possible here, and so is `pico stop`"

@@ -40,9 +40,14 @@ def damaged_files(root: Path, read_log: Callable[[Path], object]) -> tuple[Diagn
         for one in _of_recipe(path, read_log) if entry is state_files.RECIPE_LOG else _of_file(root, path, name, entry):
             found.setdefault(f"{path}{one.summary}", one)
     for one in _as_read(root):
-        if not any(one.summary == known.summary for known in found.values()):
+        if not any(one.summary == known.summary or _is_link_of(known, one) for known in found.values()):
             found[one.summary] = one
     return tuple(found.values())
+
+
+def _is_link_of(known: Diagnostic, one: Diagnostic) -> bool:
+    """Return whether a file that a reader cannot read is a link that is reported already."""
+    return known.code == "symlink" and known.summary.split(" is ")[0] == one.summary.split(" cannot be read")[0]
 
 
 def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iterator[Diagnostic]:

@@ -69,6 +69,7 @@ class Licensing:
         require_attached(own.place)
         now, known = own.now(), {one.laser: one.arming for one in await self.armings()}
         keep(own.place, ended(own.setup, known.get(laser), laser, by, (await own.device.describe()).name, now))
+        refused: PicoError | None = None
         for _ in range(SHUT_WITHIN):
             if edge.lease is None and await edge.holder() is None:
                 try:
@@ -76,9 +77,13 @@ class Licensing:
                 except PicoError as exc:
                     if exc.exit_code != ExitCode.LOCKED:  # nobody else shuts it: a journal that can't be used, say
                         return await self._shut_unrecorded(laser)
+                    if exc.diagnostics[0].code != "locked":
+                        refused = exc
             if laser not in {one.laser for one in await self.armings()}:
                 return True
             await asyncio.sleep(AGAIN)
+        if refused is not None:
+            raise refused
         return False
 
     async def _shut_unrecorded(self, laser: str) -> bool:
