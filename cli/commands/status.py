@@ -35,11 +35,10 @@ def status(
     session = Session.of(context)
     try:
         bench = session.bench()
-    except PicoError:  # of manifests, most often; what emits meanwhile is reported all the same
-        session.tell(_light(session))
-        raise
-    session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
-    found = bench.drift.status()
+        session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
+        found = bench.drift.status()
+    except PicoError as exc:  # of manifests, or of a journal; what emits meanwhile is reported all the same
+        raise PicoError([*exc.diagnostics, *_light(session)], exc.exit_code) from exc
     session.tell(found.cut_short)
     session.show(view, found, every=every)
 
