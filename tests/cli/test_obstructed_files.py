@@ -10,15 +10,19 @@ import signal
 import socket
 import subprocess
 from collections.abc import Iterator
-from contextlib import chdir, contextmanager
+from contextlib import chdir, closing, contextmanager
 from pathlib import Path
 from types import FrameType
 
 import pytest
 from commanding import Brought, Pico, apply_manifest
+from pico_cli.session import lost_warning
 
-from pico.base.state_files import JOURNAL, OWN_LAB
+from pico.base.state_files import JOURNAL, OWN_LAB, WORLD
 from pico.diagnostics import PicoError
+from pico.model.operation import Operation, OperationResult, Reason
+from pico.places.bench import BenchPlace
+from pico.runs.journal import Journal
 from pico.runs.storage.change_count import ChangeCount
 
 KINDS = ("folder", "pipe", "socket", "link")
@@ -161,3 +165,20 @@ def test_a_laser_is_shut_though_the_journal_cannot_be_used(lit: Path, pico: Pico
     (lit / ".pico/benches/sim/journal.sqlite").write_bytes(b"no database" * 1000)
     assert pico("apply", "--yes").code != 0
     assert pico("laser", "disarm", "laser").code == 0 and not emits(lit)
+
+
+def test_a_table_of_emulated_devices_that_begins_anew_is_reported(lit: Path, pico: Pico) -> None:
+    place = BenchPlace(lit, "emulated")
+    with closing(Journal(JOURNAL.path(place.own))) as journal:
+        journal.begin_run("r1", "plan", "test", about={"environment": {"backend": "emulated"}})
+        assert lost_warning(place) == (), "nothing was moved"
+        reason = Reason(kind="changed")
+        journal.intend("r1/a/1", Operation(id="a", primitive="set", component="p1", reason=reason), 1)
+        journal.started("r1/a/1", None, 1)
+        journal.ended(OperationResult(key="r1/a/1", outcome="done"), 1)
+    (said,) = lost_warning(place)
+    assert said.severity == "warning" and str(WORLD.path(place.own)) in said.summary
+    assert "it begins anew" in said.summary and "every part stands at its home" in said.hint
+    assert str(WORLD.path(place.own)) in pico("doctor").err
+    WORLD.path(place.own).write_text("{}")
+    assert lost_warning(place) == ()
