@@ -131,7 +131,10 @@ class Journal:
         self._in_commits: dict[str, FromCommit | None] = {}
         self._count = ChangeCount(path)
         marked, least = marked_run(path), self._count.least()
-        _require_files(path)
+        immutable = f"{path.absolute().as_uri()}?immutable=1"
+        in_way = _in_way(path)
+        if in_way and not (looking and in_way[0] != path):  # looking needs only the journal itself
+            raise PicoError(JOURNAL.unreadable(*in_way))
         with self._guarded():
             if is_emptied(path):
                 raise sqlite3.DatabaseError(EMPTY)
@@ -146,11 +149,11 @@ class Journal:
                     path.parent.mkdir(parents=True, exist_ok=True)
                 if not path.exists() and str(path) != MEMORY:
                     make_database(path, _upgrade(0))
-                self._open(str(path))
+                self._open(immutable if in_way else str(path))
             except sqlite3.OperationalError:
                 if not looking or _is_open(path):
                     raise
-                self._open(f"{path.absolute().as_uri()}?immutable=1")
+                self._open(immutable)
             if marked:
                 self._require_run(marked)
             if self._counts and (missing := least - self._changes()) > 0:
@@ -517,14 +520,15 @@ def _upgrade(version: int) -> str:
     return f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;"
 
 
-def _require_files(path: Path) -> None:
-    """Raise PicoError if something other than a file is where a journal or what SQLite has beside it belongs, or if
-    this user may not read it: SQLite would only say that it cannot open or write its database."""
+def _in_way(path: Path) -> tuple[Path, str] | tuple[()]:
+    """Return which of a journal and what SQLite has beside it is no file, or may not be read by this user, and why:
+    SQLite would only say that it cannot open or write its database."""
     for one in (path, path.with_name(f"{path.name}-wal"), path.with_name(f"{path.name}-shm")):
         if what := other_than_file(one):
-            raise PicoError(JOURNAL.unreadable(one, f"it is {what}"))
+            return one, f"it is {what}"
         if one.exists() and not os.access(one, os.R_OK):
-            raise PicoError(JOURNAL.unreadable(one, os.strerror(errno.EACCES)))
+            return one, os.strerror(errno.EACCES)
+    return ()
 
 
 def _is_open(path: Path) -> bool:
