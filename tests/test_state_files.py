@@ -19,6 +19,7 @@ from commanding import Pico
 
 from pico.base import state_files
 from pico.base.formats import Format
+from pico.base.plain_files import read_text
 from pico.base.state_file import StateFile
 from pico.base.state_files import ALL, entry_of, files_below
 from pico.bench.mending.files import damaged_files
@@ -568,6 +569,22 @@ def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on
     assert doctor.code == 1 and f"`mv {log.path} {log.path}.damaged`" in doctor.err
     log.path.rename(f"{log.path}.damaged")
     assert pico("doctor").code == 0
+
+
+def test_a_log_that_is_written_to_while_it_is_read_has_lost_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    about = About("20261127T120000Z-aaaaaa", "x", "recipes/x.yaml", "d", {}, {}, "now")
+    log = Log.begin(BenchPlace(tmp_path, "sim"), about)
+
+    def read_then_written(path: Path, encoding: str = "utf-8") -> str:
+        text = read_text(path, encoding)
+        if path == log.path:
+            log.begun("1", {"set": 12}, (None, None), "set")
+        return text
+
+    monkeypatch.setattr("pico.recipes.log.read_text", read_then_written)
+    assert Log.read(log.path).steps == {}
 
 
 def test_git_has_nothing_of_it(lab: Path) -> None:

@@ -89,8 +89,9 @@ class Log:
         """Return the log of a run that was begun before; a last line that was cut short does not count. Raises
         PicoError for one that is damaged, or that has fewer lines than were written: its last lines are missing."""
         try:
+            least = _count(path).least()  # first: a run may write a line at this moment
             lines = read_text(path).split("\n")[:-1]
-            if (missing := _count(path).least() - len(lines)) > 0:
+            if (missing := least - len(lines)) > 0:
                 raise ValueError(f"its last {missing} lines are missing" if missing > 1 else "its last line is missing")
             if not lines:
                 raise ValueError("it does not say of which recipe it is")
