@@ -26,6 +26,7 @@ from pico.bench.mending.files import damaged_files
 from pico.diagnostics import PicoError
 from pico.edge import dose, stopping, terms_store
 from pico.edge.lease import BenchLock
+from pico.model.operation import Operation, Reason
 from pico.places.bench import BenchPlace
 from pico.places.record import read_record
 from pico.recipes.log import About, Log
@@ -501,6 +502,22 @@ def test_salvage_takes_a_run_once_that_commits_hold_and_a_torn_journal_in_part(t
     made = salvage(torn, lambda run: held, ["run0"])
     assert [one[1] for one in made.runs] == ["run0"] and made.from_commits == ("run0",) and made.intact == 0
     write_journal(made, tmp_path / "new.sqlite")
+
+
+def test_salvage_keeps_a_record_once_that_a_torn_journal_holds_twice(tmp_path: Path) -> None:
+    with closing(Journal(tmp_path / "old.sqlite")) as journal:
+        journal.begin_run("run0", "plan", "test")
+        operation = Operation(id="a", primitive="set", component="p1", reason=Reason(kind="changed"))
+        journal.intend("run0/a/1", operation, 1)
+    whole = examine(tmp_path / "old.sqlite")
+    (row,) = whole.records
+    head = whole.runs[0]
+    torn = Examined([head], [row, (2, *row[1:])], broken="torn")
+    made = salvage(torn, lambda run: FromCommit(head[:9], (), None, ()), [])
+    assert [one[1] for one in made.runs] == ["run0"] and made.records == [row]
+    write_journal(made, tmp_path / "new.sqlite")
+    with closing(Journal(tmp_path / "new.sqlite")) as journal:
+        assert [one.key for one in journal.records(run="run0")] == ["run0/a/1"]
 
 
 def test_a_damaged_mark_of_a_run_that_has_not_ended_stops_nothing(tmp_path: Path) -> None:

@@ -206,9 +206,19 @@ def salvage(found: Examined, known: Callable[[str], FromCommit | None], committe
             mended.append(run)
         else:
             lost.append(Lost(run, str(there[4]) if there else "", tuple(wrong.get(run, ()))))
-    ordered = sorted(records, key=lambda one: one[0])
-    return Salvage(sorted(runs, key=_order), [one for _, one in ordered], found.fence,
+    ordered = [one for _, one in sorted(records, key=lambda one: one[0])]
+    return Salvage(sorted(runs, key=_order), _distinct(ordered), found.fence,
                    len(runs) - len(mended), tuple(mended), tuple(lost))  # fmt: skip
+
+
+def _distinct(records: Rows) -> Rows:
+    """Return records without those that a torn table, or a commit beside it, holds twice: a sound one comes first."""
+    found: dict[tuple[Any, Any], tuple[Any, ...]] = {}
+    for row in records:
+        place = row[1], row[3]  # key and phase
+        if place not in found or (is_sound_record(row) and not is_sound_record(found[place])):
+            found[place] = row
+    return list(found.values())
 
 
 def _is_complete(row: Sequence[Any], rows: Rows, held: FromCommit | None) -> bool:
