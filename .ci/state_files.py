@@ -20,7 +20,17 @@ All that PICO keeps on disk beside your manifests and commits. This page is prin
 `pico doctor` checks all of these files. A file that is damaged is named with its path, the cause, what is lost with it
 and the command that continues. Every JSON file carries the SHA-256 of its content (`{"sha256": "...", ...`), every
 record of the journal a CRC-32; files from before that have none and are read as they are. A file is written whole or
-not at all.
+not at all. If something else lies in its place (a folder, a named pipe, a link that leads nowhere), it is named with
+the command that moves it away; nothing waits for it.
+
+`pico laser disarm` shuts a laser by the Lab that the bench keeps (`lab.json`), also if `lab.yaml` cannot be read or
+requires a newer PICO; if `lab.json` is damaged, by `lab.yaml`, else by `HEAD`. It needs no journal. It does need to
+know which bench it is and that nobody else has it: `lock`, `enrolment.json`, `bench.json`. `pico recover` moves arms,
+and goes by `lab.json` alone if the manifests are wrong.
+
+What PICO cannot notice: an older copy of the whole folder `.pico` that is put back. Its journal, its counts and its
+table agree with one another, and runs in commits may be of the same bench in another clone. What was done since that
+copy is then unknown: look at the table before anything moves.
 
 | kind | may it be deleted? | if it is damaged |
 |---|---|---|
@@ -58,7 +68,7 @@ def page() -> str:
 def _row(file: StateFile) -> str:
     name = file.pattern.removeprefix("benches/BENCH/").removeprefix("benches/HOST/LAB/BENCH/")
     kept = file.schema or (file.text if file.text else "JSON, version 1")
-    remedy = file.remedy.format(path=name, stem="LASER") if file.remedy else "nothing to do"
+    remedy = file.remedy.format(path=name, aside=f"{name}.damaged", stem="LASER") if file.remedy else "nothing to do"
     cells = (f"`{name}`", file.kind, file.holds, file.writer, kept, file.lost or "nothing", remedy)
     return f"| {' | '.join(cells)} |"
 

@@ -123,10 +123,10 @@ def _fail_inside() -> None:
 def _open_light() -> None:
     """A night whose terms are damaged is left as it is: its laser stays open."""
     from pico.base.state_files import UNATTENDED
-    from pico.edge import unattended
+    from pico.edge import terms_store
     from pico.places.bench import BenchPlace
 
-    read = unattended.read
+    read = terms_store.read
 
     def reading(place: BenchPlace) -> Any:
         return None if UNATTENDED.wrong(UNATTENDED.path(place.folder)) else read(place)

@@ -227,7 +227,9 @@ def cycle(bench: Bench, held: bool) -> list[str]:
     between(bench)
     bench.count["undone"] += 1
     code, said = bench.run(*bench.moves("undo")), bench.said()
-    if code and "killed-early" in said:  # of a `resume` that began nothing: undo then wants its run named
+    if (
+        code and "was killed before it moved anything" in said
+    ):  # of a `resume` that began nothing: undo then wants its run named
         code, said = bench.run(*bench.moves("undo", bench.began())), bench.said()
     (bench.folder / STATE).write_text(exact)
     found = elsewhere(bench, before)

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import typer
 
 from pico.backends.devices import EMULATED, HARDWARE, SIMULATOR, opener
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.places.layout import take_report
 
 from .at_once.complete import SHARED
@@ -25,8 +25,8 @@ from .views.style import inert_json, paint
 
 if TYPE_CHECKING:
     from pico.bench.bench import Bench
-    from pico.diagnostics import Diagnostic
     from pico.edge.network.remotes import Place
+    from pico.history.lab.folder import Safety
     from pico.history.lab_history import LabHistory
     from pico.places.bench import BenchPlace
 
@@ -91,6 +91,12 @@ class Session:
 
         return meant(root, backend=self.backend, word=self.at)
 
+    def root(self, *, safety: bool = False) -> Path:
+        """Return the folder of the lab; with `safety` also if its manifest is gone. Raises PicoError."""
+        from pico.manifest.load import find_lab, find_lab_of_bench
+
+        return (find_lab_of_bench if safety else find_lab)(self.folder)
+
     def here(self, root: Path) -> BenchPlace:
         """Return the bench that is meant, which is to be one of this machine; raises PicoError for another."""
         from pico.places.bench import BenchPlace
@@ -105,19 +111,22 @@ class Session:
         raise PicoError(error("remote", text, hint=hint))
 
     def bench(
-        self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False, calls: bool = True
-    ) -> Bench:
+        self, fidelity: str | None = None, speed: float | None = None, *, writing: bool = False, calls: bool = True,
+        safety: Safety = "",
+    ) -> Bench:  # fmt: skip
         """Open the lab of this session; `writing`: to move something, or change files or history. What is called is
-        kept then, see `calls`, unless the command does that later itself. Raises PicoError."""
+        kept then, see `calls`, unless the command does that later itself. `safety`: to switch light off or to empty a
+        hand, also if the manifests are wrong or gone; that is reported. Raises PicoError."""
         from pico.bench.bench import Bench
-        from pico.manifest.load import find_lab
 
         from .views.style import count_waits, no_waits
 
         if self.backend is not None:
             opener(self.backend)
-        place = self.place(find_lab(self.folder))
-        bench = Bench.open(self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place)
+        place = self.place(self.root(safety=bool(safety)))
+        bench = Bench.open(
+            self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place, safety=safety
+        )
         loaded()
         self._head(bench.setup.lab.name, place)
         count_waits(lambda: bench.waits)
@@ -136,6 +145,7 @@ class Session:
                 *take_report(bench.root),
                 *bench.folder.recovered,
                 *bench.folder.proposed,
+                *_without_manifests(bench, safety),
             )
         )
         if self.lock_timeout:
@@ -283,13 +293,27 @@ def _own_words(words: Sequence[str]) -> list[str]:
     return kept
 
 
+def _without_manifests(bench: Bench, safety: Safety) -> tuple[Diagnostic, ...]:
+    """Return what is wrong with manifests that a command for safety does without, and which Lab it goes by."""
+    if not safety or (wrong := bench.folder.wrong) is None:
+        return ()
+    by = "the Lab that the bench keeps as its own" if bench.folder.own is not None else "the Lab of the manifests"
+    note = Diagnostic("note", "bench-lab", f"this command continues by {by}")
+    return (*(replace(one, severity="warning") for one in wrong.diagnostics if one.severity == "error"), note)
+
+
 def lost_warning(place: Place, *, chosen: bool = False) -> tuple[Diagnostic, ...]:
-    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused. `chosen`: no
-    option named it; then also if another bench is gone, for the worktree may have chosen that one."""
+    """Return a warning if what was kept of a bench of this machine is gone; what would move it is refused, but for a
+    table of emulated devices, which begins anew. `chosen`: no option named it; then also if another bench is gone, for
+    the worktree may have chosen that one."""
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench, others_lost
 
     if not isinstance(place, BenchPlace):
         return ()
     found = [lost_bench(place), *(others_lost(place) if chosen else ())]
+    if place.name == EMULATED:
+        from pico.edge.recovery import lost_table
+
+        found.append(lost_table(place))
     return tuple(replace(one, severity="warning") for one in found if one)

@@ -19,12 +19,14 @@ from commanding import Pico
 
 from pico.base import state_files
 from pico.base.formats import Format
+from pico.base.plain_files import read_text
 from pico.base.state_file import StateFile
 from pico.base.state_files import ALL, entry_of, files_below
 from pico.bench.mending.files import damaged_files
 from pico.diagnostics import PicoError
-from pico.edge import dose, stopping, unattended
+from pico.edge import dose, stopping, terms_store
 from pico.edge.lease import BenchLock
+from pico.model.operation import Operation, Reason
 from pico.places.bench import BenchPlace
 from pico.places.record import read_record
 from pico.recipes.log import About, Log
@@ -40,6 +42,7 @@ ELSEWHERE = {
     "benches/BENCH/unattended.lock": "unattended runs", "benches/BENCH/armed/LASER.json": "lasers that are armed",
     ".git/pico/armed/DIGEST": "lasers that are armed", "benches/BENCH/mornings.json": "light on a detector",
     "benches/BENCH/recipes/RUN.jsonl": "recipes", "benches/BENCH/recipes/RUN.out": "detached recipes",
+    "benches/BENCH/recipes/RUN.lines": "recipes",
     "benches/BENCH/recipes/RUN.pid": "detached recipes", "benches/BENCH/points/KEY.jsonl": "searches under way",
     "benches/BENCH/run": "runs under way", "benches/BENCH/holder.json": "runs under way",
     "benches/BENCH/called.json": "runs under way", "benches/BENCH/seen.json": "cameras that look",
@@ -208,7 +211,7 @@ def test_what_keeps_people_safe_is_never_read_as_nothing(tmp_path: Path) -> None
     with pytest.raises(PicoError, match=r"dose\.json"):
         dose.read(place)
     (place.own / "unattended.json").write_text("{")
-    terms = unattended.read(place)
+    terms = terms_store.read(place)
     assert terms is not None and set(terms.end) == {"shut", "lamps off"} and terms.left is None
     (place.own / "stop.json").write_text("{")
     assert stopping.asked_to_stop(place, 1) == "now"
@@ -501,6 +504,22 @@ def test_salvage_takes_a_run_once_that_commits_hold_and_a_torn_journal_in_part(t
     write_journal(made, tmp_path / "new.sqlite")
 
 
+def test_salvage_keeps_a_record_once_that_a_torn_journal_holds_twice(tmp_path: Path) -> None:
+    with closing(Journal(tmp_path / "old.sqlite")) as journal:
+        journal.begin_run("run0", "plan", "test")
+        operation = Operation(id="a", primitive="set", component="p1", reason=Reason(kind="changed"))
+        journal.intend("run0/a/1", operation, 1)
+    whole = examine(tmp_path / "old.sqlite")
+    (row,) = whole.records
+    head = whole.runs[0]
+    torn = Examined([head], [row, (2, *row[1:])], broken="torn")
+    made = salvage(torn, lambda run: FromCommit(head[:9], (), None, ()), [])
+    assert [one[1] for one in made.runs] == ["run0"] and made.records == [row]
+    write_journal(made, tmp_path / "new.sqlite")
+    with closing(Journal(tmp_path / "new.sqlite")) as journal:
+        assert [one.key for one in journal.records(run="run0")] == ["run0/a/1"]
+
+
 def test_a_damaged_mark_of_a_run_that_has_not_ended_stops_nothing(tmp_path: Path) -> None:
     path = tmp_path / "journal.sqlite"
     with closing(Journal(path)) as journal:
@@ -549,6 +568,15 @@ def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on
     log.begun("1", {"set": 12}, (None, None), "set")
     whole = log.path.read_bytes()
     assert set(Log.read(log.path).steps) == {"1"} and pico("doctor").code == 0
+    log.path.write_bytes(whole[: whole.index(b"\n") + 1])  # a line is missing, and those that are left are sound
+    with pytest.raises(PicoError, match="its last line is missing"):
+        Log.read(log.path)
+    assert str(log.path) in pico("doctor").err
+    count = log.path.with_suffix(".lines")
+    before = count.read_bytes()
+    count.unlink()
+    assert Log.read(log.path).steps == {}, "of a run of an earlier PICO nobody counted the lines"
+    count.write_bytes(before)
     for at in (0, whole.index(b"recipes/x"), whole.index(b'"given": "') + 12, len(whole) - 20):
         log.path.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1 :])
         with pytest.raises(PicoError, match=r"aaaaaa\.jsonl"):
@@ -558,6 +586,22 @@ def test_a_flipped_bit_in_the_log_of_a_recipe_is_noticed_and_named_with_a_way_on
     assert doctor.code == 1 and f"`mv {log.path} {log.path}.damaged`" in doctor.err
     log.path.rename(f"{log.path}.damaged")
     assert pico("doctor").code == 0
+
+
+def test_a_log_that_is_written_to_while_it_is_read_has_lost_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    about = About("20261127T120000Z-aaaaaa", "x", "recipes/x.yaml", "d", {}, {}, "now")
+    log = Log.begin(BenchPlace(tmp_path, "sim"), about)
+
+    def read_then_written(path: Path, encoding: str = "utf-8") -> str:
+        text = read_text(path, encoding)
+        if path == log.path:
+            log.begun("1", {"set": 12}, (None, None), "set")
+        return text
+
+    monkeypatch.setattr("pico.recipes.log.read_text", read_then_written)
+    assert Log.read(log.path).steps == {}
 
 
 def test_git_has_nothing_of_it(lab: Path) -> None:

@@ -39,7 +39,7 @@ def show(context: typer.Context, fidelity: Fidelity = None) -> None:
     """Show each laser: its class, whether it emits, its shutter, and what lets it."""
     if context.invoked_subcommand is None:
         session = Session.of(context)
-        session.show(view, session.bench(fidelity).lasers.rows())
+        session.show(view, session.bench(fidelity, safety="light").lasers.rows())
 
 
 @app.command()
@@ -97,7 +97,7 @@ def disarm(context: typer.Context, laser: Name, fidelity: Fidelity = None) -> in
       pico laser disarm laser
     """
     session = Session.of(context)
-    bench = session.bench(fidelity, writing=True)
+    bench = session.bench(fidelity, writing=True, safety="light")
     if bench.lasers.disarm(laser):
         session.show(view, bench.lasers.rows())
         return ExitCode.DONE

@@ -37,7 +37,7 @@ def recover(
       pico recover --done 20260101T120000Z-1a2b3c/op3/1
     """
     session = Session.of(context)
-    bench = session.bench(fidelity, writing=True)
+    bench = session.bench(fidelity, writing=True, safety="hands")
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
             bench.recovery.answer(key, done=was_done)

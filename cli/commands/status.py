@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from pico.diagnostics import PicoError
+
 from ..session import Session
 from ..views import status as view
+
+if TYPE_CHECKING:
+    from pico.diagnostics import Diagnostic
 
 HEADING = "The main job"
 ORDER = 20
@@ -28,8 +33,24 @@ def status(
     from pico.history.merge.doubts import unsettled
 
     session = Session.of(context)
-    bench = session.bench()
-    session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
-    found = bench.drift.status()
+    try:
+        bench = session.bench()
+        session.tell(tuple(unsettled(bench.folder.repository, bench.root, bench.folder.manifests)))
+        found = bench.drift.status()
+    except PicoError as exc:  # of manifests, or of a journal; what emits meanwhile is reported all the same
+        raise PicoError([*exc.diagnostics, *_light(session)], exc.exit_code) from exc
     session.tell(found.cut_short)
     session.show(view, found, every=every)
+
+
+def _light(session: Session) -> tuple[Diagnostic, ...]:
+    """Return which lasers of the bench emit, and how an unattended run left it, by the Lab that the bench keeps."""
+    from pico.bench.bench import Bench
+    from pico.bench.lasers import light
+
+    try:
+        place = session.place(session.root(safety=True))
+        with Bench.open(session.folder, backend=session.backend, bench=place, safety="light") as bench:
+            return light(bench)
+    except PicoError:  # the bench cannot be opened at all, which the caller reports
+        return ()

@@ -27,10 +27,9 @@ def stop(context: typer.Context, now: Now = False) -> None:
       pico stop --bench shel/bench1
     """
     from pico.bench.running.stopping import moved_elsewhere, stop
-    from pico.manifest.load import find_lab
 
     session = Session.of(context)
-    place = session.place(find_lab(session.folder))
+    place = session.place(session.root(safety=True))
     stopped = stop(place, now=now)
     others = () if stopped[0] else moved_elsewhere(place)
     session.show(view, *stopped, bench=place.title, others=others, now=now)

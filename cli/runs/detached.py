@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.base.plain_files import read_text
 from pico.base.state_files import DETACHED
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import write_whole
@@ -104,7 +105,7 @@ def _kept(far: Far) -> Path:
 
 def _sent(far: Far) -> tuple[Sent, ...]:
     try:
-        found = [line.split() for line in _kept(far).read_text(encoding="ascii").splitlines()]
+        found = [line.split() for line in read_text(_kept(far), "ascii").splitlines()]
     except (OSError, UnicodeError):
         return ()
     return tuple(Sent(*words) for words in found if len(words) == 2)

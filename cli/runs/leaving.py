@@ -9,6 +9,8 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.base.plain_files import open_file, read_text, set_aside
+from pico.base.state_files import RECIPE_PROCESS
 from pico.diagnostics import ExitCode, PicoError
 from pico.disk import writing
 from pico.edge.network.meant import word_for
@@ -30,11 +32,13 @@ def leave(session: Session, bench: Bench, log: Log, unattended: bool) -> None:
     words += ["--bench", word_for(bench.place)]
     words += ["run", "--resume", log.about.name, "--yes", *(["--unattended"] if unattended else [])]
     words += ["--fidelity", bench.fidelity] if bench.asked else []
+    with writing(_said(log.path)):
+        set_aside(_said(log.path))
     with writing(_said(log.path)), _said(log.path).open("wb") as said:
         process = subprocess.Popen(
             words, stdin=subprocess.DEVNULL, stdout=said, stderr=subprocess.STDOUT, start_new_session=True
         )
-    log.path.with_suffix(".pid").write_text(str(process.pid), encoding="utf-8")
+    RECIPE_PROCESS.put(log.path.with_suffix(".pid"), str(process.pid).encode())
 
 
 def left(bench: Bench, word: str | None) -> Path | None:
@@ -54,7 +58,7 @@ def follow(session: Session, path: Path) -> int:
     """Show what such a run says until it is over, and return its exit code as far as its log tells it."""
     from pico.recipes.log import Log
 
-    with _said(path).open("rb") as said:
+    with os.fdopen(open_file(_said(path), os.O_RDONLY), "rb") as said:
         while True:
             over = not _goes_on(path)
             if text := said.read().decode(errors="replace").rstrip("\n"):
@@ -72,7 +76,7 @@ def _goes_on(path: Path) -> bool:
     try:
         if Log.read(path).about.ended:
             return False
-        os.kill(int(path.with_suffix(".pid").read_text(encoding="utf-8")), 0)
+        os.kill(int(read_text(path.with_suffix(".pid"))), 0)
     except (PicoError, OSError, ValueError):
         return False
     return True

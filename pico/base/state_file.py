@@ -7,8 +7,10 @@ as they are. All that is written is written whole or not at all.
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import json
+import os
 import re
 import shlex
 from collections.abc import Callable, Mapping
@@ -17,11 +19,14 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from pico.base.formats import Format
+from pico.base.plain_files import aside_of, open_lock, other_than_file, read_file, set_aside
 from pico.diagnostics import Diagnostic, PicoError, error
-from pico.disk import write_whole
+from pico.disk import unwritable, write_whole, writing
 from pico.version import NEWER, upgrade_hint
 
 T = TypeVar("T")
+ASIDE = "`mv {path} {aside}`"
+"""Puts what is damaged where nothing reads it, under a name that is free; nothing is deleted."""
 Kind = Literal["cache", "process", "memory", "record", "safety"]
 """`cache`: made anew by itself. `process`: counts only while a process lives. `memory`: what the next look at the bench
 finds again. `record`: gone for good if it is deleted. `safety`: never read as empty; nothing moves until a person
@@ -88,7 +93,7 @@ class StateFile:
         None is returned instead.
         """
         try:
-            return self.made(path, path.read_bytes(), make)
+            return self.made(path, read_file(path), make)
         except FileNotFoundError:
             return None
         except OSError as exc:
@@ -133,7 +138,7 @@ class StateFile:
     def wrong(self, path: Path, make: Callable[[dict[str, Any]], object] = dict) -> Diagnostic | None:
         """Return what is wrong with the file at `path`, None if nothing is or there is none; for whoever checks all."""
         try:
-            self.made(path, path.read_bytes(), make)
+            self.made(path, read_file(path), make)
         except FileNotFoundError:
             return None
         except OSError as exc:
@@ -159,8 +164,24 @@ class StateFile:
     ) -> None:  # fmt: skip
         """Write a document, whole or not at all. `durable`: on the disk when this returns; `what`: what is said if it
         can't be written. Raises PicoError."""
+        self.put(path, self.dump(document, indent), durable=durable, what=what)
+
+    def put(self, path: Path, data: bytes, *, durable: bool = True, what: str = "") -> None:
+        """Write the bytes of a file as `write` does. What lies there and is no file is moved aside. Raises
+        PicoError."""
         code = self.code if self.code != "state-file" else "unwritable"
-        write_whole(path, self.dump(document, indent), what=what, code=code, folders=True, durable=durable)
+        with writing(path, what=what, code=code):
+            set_aside(path)
+        write_whole(path, data, what=what, code=code, folders=True, durable=durable)
+
+    def lock(self, path: Path) -> int:
+        """Open the file of a kernel lock, made with its folder if it is missing. Raises PicoError, also for what is no
+        file."""
+        try:
+            path.parent.mkdir(parents=True, exist_ok=True)
+            return open_lock(path)
+        except OSError as exc:
+            raise PicoError(self.unusable(path, exc)) from exc
 
     # what is said
 
@@ -173,13 +194,33 @@ class StateFile:
             hint = upgrade_hint() if self.keeps_newer else f"{upgrade_hint()}; otherwise {way}"
         return error(code, f"{path} cannot be read: {cause}", detail=self._detail, hint=hint)
 
+    def unusable(self, path: Path, exc: OSError) -> Diagnostic:
+        """Return what keeps the file at `path` from being opened: something else in its place, permissions, or the
+        disk."""
+        if exc.errno in (errno.EINVAL, errno.EACCES, errno.EPERM):
+            return self.unreadable(path, exc.strerror or str(exc))
+        return unwritable(path, exc, code=self.code)
+
     def unreadable(self, path: Path, cause: str) -> Diagnostic:
-        """Return that the disk or its permissions withhold the file at `path`."""
-        hint = f"let this user read it (`ls -l {quoted(path)}`), then call the command again"
-        if path.is_dir():
-            away = f"mv {quoted(path)} {quoted(path.with_name(f'{path.name}.old'))}"
-            hint = f"move that folder away (`{away}`); {self.way_on(path)}"
-        return error(self.code, f"{path} cannot be read: {cause.lower()}", detail=self._detail, hint=hint)
+        """Return that the disk or its permissions withhold the file at `path`, or that something else is in its
+        place."""
+        return error(
+            self.code, f"{path} cannot be read: {cause.lower()}", detail=self._detail, hint=self._opening(path)
+        )
+
+    def _opening(self, path: Path) -> str:
+        """Return the command after which a file at `path` can be opened, and what to do then."""
+        if other_than_file(path) or path.is_symlink():
+            if ASIDE in self.remedy:
+                return self.way_on(path)
+            after = self.way_on(path) if self.remedy and "`rm " not in self.remedy else "PICO makes it anew"
+            return f"{ASIDE.format(path=quoted(path), aside=quoted(aside_of(path)))}; then {after}"
+        try:
+            own = path.lstat().st_uid == os.geteuid()
+        except OSError:
+            return f"let this user enter its folder (`ls -ld {quoted(path.parent)}`), then call the command again"
+        way = f"chmod u+rw {quoted(path)}" if own else f'sudo chown "$USER" {quoted(path)}'
+        return f"let this user read and write it: `{way}`; then call the command again"
 
     @property
     def _detail(self) -> str:
@@ -190,7 +231,7 @@ class StateFile:
     def way_on(self, path: Path) -> str:
         """Return what to do about a damaged file at `path`."""
         return (
-            self.remedy.format(path=quoted(path), stem=path.stem)
+            self.remedy.format(path=quoted(path), aside=quoted(aside_of(path)), stem=path.stem)
             or f"`rm {quoted(path)}`; PICO makes it anew when it is needed"
         )
 

@@ -12,11 +12,9 @@ from functools import cache
 from pathlib import Path
 
 from pico.base.formats import Format
-from pico.base.state_file import StateFile
+from pico.base.state_file import ASIDE, StateFile
 
 BENCH = "benches/BENCH/"
-ASIDE = "`mv {path} {path}.damaged`"
-"""Puts a damaged file where nothing reads it; nothing is deleted."""
 
 # of a bench: what must never be read as empty
 
@@ -52,8 +50,9 @@ LOCK = StateFile(
     "the token: the next one is taken from the clock, above all that were given", "", text="text",
 )  # fmt: skip
 UNATTENDED_LOCK = StateFile(
-    BENCH + "unattended.lock", "process", "the kernel's lock of the process that holds a run to its terms",
-    "`pico run --unattended`", "", "", text="empty",
+    BENCH + "unattended.lock", "process",
+    "the kernel's lock of the process that holds a run to its terms, and these terms until the run is over",
+    "`pico run --unattended`", "", "", text="JSON, or empty",
 )  # fmt: skip
 
 # of a bench: what happened there
@@ -80,6 +79,10 @@ RECIPE_LOG = StateFile(
     "`pico run --resume` of that run; what it did is in the journal",
     ASIDE + ", and begin the recipe anew: what it did is in the runs of the bench", code="recipe-log",
     text="JSON lines, pico.recipe_run/v1",
+)  # fmt: skip
+RECIPE_LINES = StateFile(
+    BENCH + "recipes/RUN.lines", "process", "how many lines the log of a run has, to notice one that lost its end",
+    "`pico run`", "", "", text="text",
 )  # fmt: skip
 RECIPE_OUTPUT = StateFile(
     BENCH + "recipes/RUN.out", "record", "what a detached run of a recipe said", "`pico run --detach`",
@@ -226,7 +229,7 @@ DATA = StateFile(
 )  # fmt: skip
 PAGE = StateFile(
     "gui/**", "record", "the books of `pico gui`: leases, people, runs of its desk", "`pico gui`",
-    "who logged in, and what desks said", "`mv {path} {path}.damaged`; `pico gui` makes them anew", text="folder",
+    "who logged in, and what desks said", ASIDE + "; `pico gui` makes them anew", text="folder",
 )  # fmt: skip
 
 # in Git's own folder, which all worktrees share
@@ -238,7 +241,7 @@ RECORD = StateFile(
 )  # fmt: skip
 RECORD_LOCK = StateFile(
     ".git/pico/bench.lock", "process", "the lock of who changes that", "the first command that moves a bench", "", "",
-    text="empty",
+    code="folder", text="empty",
 )  # fmt: skip
 SEALS = StateFile(
     ".git/pico/labs.json", "safety", "the SHA-256 of the Lab that each bench adopted", "`pico bench update`",
@@ -251,10 +254,10 @@ ARMED_SEAL = StateFile(
 )  # fmt: skip
 REMOTES = StateFile(
     ".git/pico/[LAB-]/remotes.json", "record", "the coordinators that the checkout knows by name", "`pico remote add`",
-    "their names and addresses", "delete it, then `pico remote add NAME URL`", code="remote",
+    "their names and addresses", ASIDE + "; then `pico remote add NAME URL`", code="remote",
 )  # fmt: skip
 PAGE_LOCK = StateFile(
-    ".git/pico/[LAB-]/gui.lock", "process", "the lock of `pico gui`", "`pico gui`", "", "", text="empty",
+    ".git/pico/[LAB-]/gui.lock", "process", "the lock of `pico gui`", "`pico gui`", "", "", code="remote", text="empty",
 )  # fmt: skip
 
 GIT_CACHES = StateFile(
@@ -267,7 +270,8 @@ GIT_DATA = StateFile(
     text="folder",
 )  # fmt: skip
 GIT_LOCK = StateFile(
-    ".git/pico/write.lock", "process", "the lock of who commits", "`pico commit`, `pico checkout`", "", "", text="text",
+    ".git/pico/write.lock", "process", "the lock of who commits", "`pico commit`, `pico checkout`", "", "",
+    code="folder", text="text",
 )  # fmt: skip
 GIT_MESSAGE = StateFile(
     ".git/pico/COMMIT_EDITMSG", "process", "a message while it is edited", "`pico commit -e`", "", "", text="text",
@@ -275,7 +279,7 @@ GIT_MESSAGE = StateFile(
 
 ALL = (
     DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB, MORNINGS, RECIPE_LOG,
-    RECIPE_OUTPUT, CHANGE_COUNT,
+    RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
     RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,
     EARLIER, SPLITTING, SPLIT_LOCK, DATA, PAGE, RECORD, RECORD_LOCK, SEALS, ARMED_SEAL, REMOTES, PAGE_LOCK,
@@ -299,9 +303,22 @@ def _pattern(pattern: str) -> re.Pattern[str]:
 
 
 def files_below(root: Path) -> Iterator[tuple[Path, str, StateFile | None]]:
-    """Yield each file below `.pico` of the lab in `root`: its path, its path below that folder, and its entry."""
-    top = root / ".pico"
-    for path in sorted(top.rglob("*")):
-        if path.is_file() or path.is_symlink():
-            name = path.relative_to(top).as_posix()
-            yield path, name, entry_of(name)
+    """Yield each file below `.pico` of the lab in `root`: its path, its path below that folder, and its entry. So is
+    whatever else lies in the place of a file: a folder, a named pipe, a link."""
+    yield from _files(root / ".pico", "")
+
+
+def files_in_git(common: Path) -> Iterator[tuple[Path, str, StateFile | None]]:
+    """Yield each file of PICO in Git's own folder `common` as `files_below` does."""
+    yield from _files(common / "pico", ".git/pico/")
+
+
+def _files(top: Path, before: str) -> Iterator[tuple[Path, str, StateFile | None]]:
+    for path in sorted(top.glob("*")):
+        name = before + path.name
+        entry = entry_of(name)
+        is_place_of_file = entry is not None and "**" not in entry.pattern
+        if not path.is_dir() or path.is_symlink() or is_place_of_file:
+            yield path, name, entry
+        else:
+            yield from _files(path, f"{name}/")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pico.bench.in_use import goes_on
 from pico.bench.opened import Opened
-from pico.bench.undo.intention import told
+from pico.bench.undo.intention import EARLY, told
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.edge.network.opening import remembered
 from pico.edge.protocol import RECIPE, RECORDING, STEERING
@@ -28,7 +28,9 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     with remembered(opened.place) as memory:
         moved = memory is None or killed in memory.moving()
         last = memory.last() if memory else None
-    early = "" if moved else " before it began an operation"
+    if not (moved or held) and (called := told(opened.place)):  # by the command that began the run
+        return called
+    early = "" if moved else f" {EARLY}"
     ended = f"run {last.run} was interrupted" if last and last.outcome == "interrupted" else ""
     run = f"run {killed} was killed{early}" if killed else ended
     text = ", and ".join([*([run] if run else []), *held])
@@ -47,7 +49,8 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
     doses = opened.wait(opened.edge.doses())
     lost = (problem for problem in seen.problems if problem.code == LOST)
-    return (*unattended(opened), *lost, *told(opened.place), *cut, *(note for one in doses for note in _dose(one)))
+    early = (one for one in told(opened.place) if one not in cut)
+    return (*unattended(opened), *lost, *early, *cut, *(note for one in doses for note in _dose(one)))
 
 
 def _dose(one: Dose) -> Iterator[Diagnostic]:

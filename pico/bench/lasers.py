@@ -8,9 +8,10 @@ from datetime import datetime, timedelta
 from typing import TYPE_CHECKING
 
 from pico.base import clock
+from pico.bench.cut_short import unattended
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error, warning
 from pico.model.arming import Arming, LaserClass, Licence
 from pico.model.observation import Observation, with_value
 from pico.model.record import record
@@ -183,8 +184,21 @@ class Lasers:
             return opened.wait(opened.edge.disarm(laser, person))
         from pico.bench.opened import Opened
 
-        with Opened.open(place.root, bench=place, fidelity=opened.fidelity) as there:  # in another worktree
+        with Opened.open(
+            place.root, bench=place, fidelity=opened.fidelity, safety="light"
+        ) as there:  # in another worktree
             return there.wait(there.edge.disarm(laser, person))
+
+
+def light(opened: Opened) -> tuple[Diagnostic, ...]:
+    """Return which lasers emit now, and what an unattended run is held to or how it left the bench. Raises PicoError if
+    nothing can be seen."""
+    emitting = [
+        warning("light", f"{row.laser} (class {row.laser_class}) emits",
+                hint=f"`pico laser disarm {row.laser}` shuts it", address=row.laser)
+        for row in Lasers(opened).rows() if row.emits
+    ]  # fmt: skip
+    return (*unattended(opened), *emitting)
 
 
 def _lets(licence: Licence | None, of: LaserClass) -> str:

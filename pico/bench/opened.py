@@ -17,9 +17,9 @@ from pico.diagnostics import PicoError, did_you_mean, error
 from pico.edge.network.meant import meant
 from pico.edge.network.opening import holder_of
 from pico.edge.network.remotes import Far, Place
-from pico.history.lab.folder import LabFolder
+from pico.history.lab.folder import LabFolder, Safety
 from pico.history.lab_history import LabHistory
-from pico.manifest.load import find_lab
+from pico.manifest.load import find_lab, find_lab_of_bench
 from pico.model.observation import Observation
 from pico.model.plan import Plan
 from pico.model.setup import Setup
@@ -62,24 +62,26 @@ class Opened:
         fidelity: str | None = None,
         speed: float | None = None,
         bench: str | Place | None = None,
+        safety: Safety = "",
     ) -> Self:
         """Open the lab that `path` lies in. Nothing is contacted yet, but for a bench on the network.
 
         `bench`: `sim`, `emulated`, `hardware`, LAB/BENCH of a remote, or `pico://host/LAB/BENCH`; without it the one
         that `PICO_BENCH` or this worktree chose (`pico bench use`), but for the real one, which must be named here.
         `backend`: the bench of this machine with that device. `fidelity`: `kinematic` or `physics`, the lab's own word
-        where None. `speed`: share of the joint limits for every robot, instead of the lab's. Raises PicoError.
+        where None. `speed`: share of the joint limits for every robot, instead of the lab's. `safety`: to switch light
+        off or to empty a hand, also if the manifests are wrong or gone, see `LabFolder`. Raises PicoError.
         """
         _require_fitting(fidelity, speed)
         if backend is not None:
             opener(backend)
-        root = find_lab(Path(path))
+        root = find_lab_of_bench(Path(path)) if safety else find_lab(Path(path))
         place = bench if isinstance(bench, BenchPlace | Far) else meant(root, backend=backend, word=bench)
         if not (bench or backend) and isinstance(place, BenchPlace) and place.name == HARDWARE:
             hint = 'open it with `bench="hardware"`; `bench="sim"` is the simulator'
             text = "this worktree chose the real bench, and a script must name that itself"
             raise PicoError(error("backend", text, hint=hint))
-        folder = LabFolder(root, place=place, keeps=True)
+        folder = LabFolder(root, place=place, keeps=True, safety=safety)
         folder.setup = folder.setup.at_speed(speed)
         opened = cls(folder, place, fidelity)
         opened.speed = speed

@@ -10,8 +10,8 @@ from __future__ import annotations
 import hashlib
 from pathlib import Path
 
-from pico.base.state_files import ARMED
-from pico.disk import write_whole
+from pico.base.plain_files import read_file, read_text, remove_file
+from pico.base.state_files import ARMED, ARMED_SEAL
 from pico.model.arming import Arming
 from pico.model.record import as_json, record
 from pico.places.bench import BenchPlace
@@ -44,15 +44,15 @@ def keep(place: BenchPlace, arming: Arming) -> None:
     """Let the bench keep an arming, in the place of an earlier one of its laser; raises PicoError."""
     data = ARMED.dump(as_json(arming), indent=1)
     if seal := _seal(place, arming.laser):
-        write_whole(seal, (_digest(data) + "\n").encode(), folders=True)
-    write_whole(place.folder / FOLDER / f"{arming.laser}.json", data, folders=True)
+        ARMED_SEAL.put(seal, (_digest(data) + "\n").encode())
+    ARMED.put(place.folder / FOLDER / f"{arming.laser}.json", data)
 
 
 def forget(place: BenchPlace, laser: str) -> None:
     """Let the bench keep nothing of a laser any more."""
-    (place.folder / FOLDER / f"{laser}.json").unlink(missing_ok=True)
+    remove_file(place.folder / FOLDER / f"{laser}.json")
     if seal := _seal(place, laser):
-        seal.unlink(missing_ok=True)
+        remove_file(seal)
 
 
 def _read(place: BenchPlace, path: Path) -> Kept:
@@ -60,9 +60,9 @@ def _read(place: BenchPlace, path: Path) -> Kept:
     try:
         if path.is_symlink() or path.parent.is_symlink():
             return Kept(laser=laser, broken="it is a link")
-        data = path.read_bytes()
+        data = read_file(path)
         seal = _seal(place, laser)
-        if seal is not None and seal.read_text(encoding="ascii").strip() != _digest(data):
+        if seal is not None and read_text(seal, "ascii").strip() != _digest(data):
             return Kept(laser=laser, broken="it is not what the bench wrote there")
         arming = _arming(ARMED.parse(data))
         return (

@@ -14,10 +14,12 @@ import zlib
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from contextvars import ContextVar
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from pico.base.clock import now as clock_now
+from pico.base.plain_files import open_lock, other_than_file
 from pico.base.state_files import ENROLMENT, HOLDER, JOURNAL, LOCK
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import sweep, writing
@@ -82,7 +84,7 @@ class BenchLock:
         """Return the token that the coordinator of the bench gave; 0 where it has none."""
         if self.granting is not None:
             return self.granting.token()
-        if ENROLMENT.path(self._folder).exists():
+        if os.path.lexists(ENROLMENT.path(self._folder)):
             raise PicoError(enrolled(self._folder), ExitCode.LOCKED)
         return 0
 
@@ -147,10 +149,13 @@ class BenchLock:
             self.release()
 
     def _open(self) -> int:
+        path = LOCK.path(self._folder)
         with self._writing():
             make_own_folder(self._place.attached.root)
             self._folder.mkdir(parents=True, exist_ok=True)
-            return os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+            if other_than_file(path) or path.is_symlink():
+                return LOCK.lock(path)  # which says what it is
+            return open_lock(path)
 
     def _writing(self) -> AbstractContextManager[None]:
         return writing(self._folder, what=f"the bench cannot be locked in {self._folder}", code="lock-file")
@@ -181,7 +186,7 @@ class BenchLock:
     def holder(self) -> Holder | None:
         """Return who has the lock, or None where nobody has it; takes it for no longer than the question needs."""
         try:
-            file = os.open(LOCK.path(self._folder), os.O_RDWR | os.O_CLOEXEC)
+            file = open_lock(LOCK.path(self._folder), make=False)
         except OSError:
             return None
         try:
@@ -244,8 +249,11 @@ def enrolled(folder: Path) -> Diagnostic:
     """Return that a bench is granted by its coordinator alone."""
     try:
         where = ENROLMENT.read(ENROLMENT.path(folder), lambda note: f"{note['bench']} at {note['url']}")
-    except PicoError:  # a bench whose enrolment is damaged stays enrolled
-        where = None
+    except PicoError as exc:  # a bench whose enrolment is damaged stays enrolled
+        found = exc.diagnostics[0]
+        return replace(
+            found, code="enrolled", summary=f"the bench counts as enrolled with a coordinator: {found.summary}"
+        )
     where = where or "a coordinator"
     text = f"this bench is enrolled as {where}, which alone grants it"
     hint = "go through it (`pico remote add`, then `--bench`); looking is possible here, and so is `pico stop`"

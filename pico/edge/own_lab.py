@@ -7,13 +7,14 @@ its SHA-256 into Git's own folder: a checkout overwrites whatever lies in `.pico
 from __future__ import annotations
 
 import hashlib
+import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base.plain_files import read_file
 from pico.base.state_files import OWN_LAB
 from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
 from pico.edge.protocol import OwnLab
 from pico.manifest.files import bench_files, read_folder, shown_path
 from pico.places.bench import BenchPlace
@@ -34,7 +35,7 @@ def read(place: BenchPlace) -> OwnLab | None:
     """Return the Lab that the bench at `place` keeps, None where it keeps none yet; raises PicoError."""
     path = OWN_LAB.path(place.folder)
     try:
-        data = path.read_bytes() if path.exists() else None
+        data = read_file(path) if os.path.lexists(path) else None
         _require_sealed(place, path, data)
         if data is None:
             return None
@@ -53,7 +54,7 @@ def write(place: BenchPlace, lab: OwnLab) -> None:
     data = OWN_LAB.dump({"by": lab.by, "at": lab.at, "files": dict(lab.files)}, indent=1)
     before = _seals(place)
     _seal(place, [*before, _digest(data)])  # either counts until the file is there
-    write_whole(OWN_LAB.path(place.folder), data)
+    OWN_LAB.put(OWN_LAB.path(place.folder), data)
     _seal(place, [_digest(data)])
 
 

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 
+from pico.base.plain_files import open_file, read_text
 from pico.optimize.loop import Limits, believed
 from pico.optimize.problem import Point, Problem
 from pico.places.bench import BenchPlace
@@ -23,8 +25,9 @@ class Points:
         """Keep a point with what was measured there."""
         with suppress(OSError):
             self._path.parent.mkdir(parents=True, exist_ok=True)
-            with self._path.open("a", encoding="utf-8") as file:
-                file.write(json.dumps({k: v for k, v in result.items() if math.isfinite(v)}) + "\n")
+            file = open_file(self._path, os.O_WRONLY | os.O_CREAT | os.O_APPEND)
+            with os.fdopen(file, "a", encoding="utf-8") as lines:
+                lines.write(json.dumps({k: v for k, v in result.items() if math.isfinite(v)}) + "\n")
 
     def drop(self) -> None:
         """Forget them: the run has them."""
@@ -34,7 +37,7 @@ class Points:
     def results(self) -> Iterator[Mapping[str, float]]:
         """Yield them in order; a line that was cut is passed over."""
         with suppress(OSError, UnicodeError):
-            for line in self._path.read_text(encoding="utf-8").splitlines():
+            for line in read_text(self._path).splitlines():
                 with suppress(ValueError, TypeError, AttributeError):
                     yield {str(k): float(v) for k, v in json.loads(line).items()}
 

@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from contextlib import closing, suppress
 from pathlib import Path
 from typing import Any
 
-from pico.base.state_files import WORLD
-from pico.diagnostics import Diagnostic, PicoError, error
+from pico.backends.devices import EMULATED, SIMULATOR
+from pico.base.state_files import JOURNAL, WORLD
+from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.diff import deviation, value_distance
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, Outcome
 from pico.model.pose import Pose
 from pico.model.record import record
 from pico.model.setup import Setup
+from pico.places.bench import BenchPlace
 from pico.runs.journal import Journal, Unsettled
 
 BY_OBSERVATION = "observation"
@@ -112,18 +115,37 @@ def open_questions(unsettled: Sequence[Unsettled]) -> list[Diagnostic]:
 def require_unmoved(path: Path) -> None:
     """Raise PicoError where the journal at `path`, if it can be read, has a simulated run in which anything was done:
     for the simulated table is not there any more."""
-    if _was_moved(path):
+    if _was_moved(path, SIMULATOR):
         text = f"{WORLD.path(path.parent)} is gone, and the journal has runs that moved this simulated table"
         hint = "`pico sim reset` starts the simulated table over, with every part at home"
         raise PicoError(error("world-file", text, hint=hint))
 
 
-def _was_moved(path: Path) -> bool:
+def lost_table(place: BenchPlace) -> Diagnostic | None:
+    """Return that the table of a simulated or an emulated bench is gone that its journal has runs of; None if it is
+    there. That of an emulated bench begins anew by itself, for its cameras and arms tell where everything is."""
+    path = WORLD.path(place.folder)
+    if place.name not in (SIMULATOR, EMULATED) or os.path.lexists(path):
+        return None
+    try:
+        require_unmoved(JOURNAL.path(place.folder))
+    except PicoError as exc:
+        return exc.diagnostics[0]
+    if place.name == SIMULATOR or not _was_moved(JOURNAL.path(place.folder), EMULATED):
+        return None
+    text = f"{path} is gone, and the journal has runs that moved this emulated table: it begins anew"
+    hint = "every part stands at its home of lab.yaml, arms are parked, and tunables are at their initial values"
+    return warning("world-file", text, hint=f"{hint}; `pico status` shows what differs")
+
+
+def _was_moved(path: Path, backend: str) -> bool:
+    if not path.exists():
+        return False
     with suppress(PicoError), closing(Journal(path, looking=True)) as journal:
-        runs = (run for run in journal.moving() if _simulated(journal.about(run)[0]))
+        runs = (run for run in journal.moving() if _is_of(journal.about(run)[0], backend))
         return any(record.kind == "done" for run in runs for record in journal.records(run=run))
     return False  # looking must not fail because of the journal
 
 
-def _simulated(about: tuple[Mapping[str, Any], ...]) -> bool:
-    return all(begun.get("environment", {}).get("backend", "sim") == "sim" for begun in about)
+def _is_of(about: tuple[Mapping[str, Any], ...], backend: str) -> bool:
+    return all(begun.get("environment", {}).get("backend", SIMULATOR) == backend for begun in about)

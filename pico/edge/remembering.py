@@ -8,8 +8,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.base.plain_files import read_text
 from pico.base.state_files import JOURNAL, RUN_MARK
-from pico.disk import write_whole
 from pico.places.bench import BenchPlace
 from pico.runs.storage.change_count import ChangeCount
 
@@ -63,12 +63,12 @@ class Remembering:
     def unended(self) -> str | None:
         """Return the run that has begun and not ended, None for none; its id stands beside the journal meanwhile."""
         with suppress(OSError, UnicodeError):
-            return self._mark.read_text(encoding="ascii").strip() or None
+            return read_text(self._mark, "ascii").strip() or None
         return None
 
     def begun(self, run: str) -> None:
         """Write beside the journal that a run has begun, which the journal has."""
-        write_whole(self._mark, f"{run}\n".encode(), durable=False)
+        RUN_MARK.put(self._mark, f"{run}\n".encode(), durable=False)
 
     def end(self, run: str, outcome: RunOutcome, tally: Mapping[str, Any]) -> None:
         """Write down how a run ended; raises PicoError."""

@@ -7,6 +7,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+from pico.base.plain_files import read_file
 from pico.base.state_files import STOP
 from pico.diagnostics import PicoError
 from pico.edge.protocol import Asking
@@ -25,7 +26,7 @@ def asked_to_stop(place: BenchPlace, token: int) -> Asking | None:
     to stop now: what lay there before the lease began, `forget` has cleared."""
     path = _note(place)
     try:
-        return STOP.made(path, path.read_bytes(), lambda note: _how(note, token))
+        return STOP.made(path, read_file(path), lambda note: _how(note, token))
     except OSError:
         return None
     except PicoError:

@@ -1,31 +1,27 @@
 """A run where nobody is there, held to its terms by the edge, also where its client is killed, hangs, or is cut off.
 
-The terms stand in `.pico/unattended.json`. Who holds a run to them has a kernel lock beside it, which is free once that
-process has died: the next one that takes the bench then shuts it and puts out its lamps, as the terms state.
+The terms are kept as `pico.edge.terms_store` says. Who holds a run to them has a kernel lock beside them, which is free
+once that process has died: the next one that takes the bench then shuts it and puts out its lamps, as the terms state.
 """
 
 from __future__ import annotations
 
 import asyncio
-import fcntl
 import os
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import replace
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from pico.base import clock
-from pico.base.state_files import UNATTENDED as UNATTENDED_TERMS
-from pico.base.state_files import UNATTENDED_LOCK
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.edge import emission
 from pico.edge.protocol import RECIPE, Job
+from pico.edge.terms_store import alive, erase, lock, mark, read, write
 from pico.model.arming import LaserClass
 from pico.model.observation import Observation
 from pico.model.operation import Operation, Reason
-from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.unattended import LAMPS_OFF, PARKED, SHUT, Left, Terms
 from pico.places.bench import BenchPlace
@@ -86,13 +82,14 @@ class Alone:
         before, place = read(self._edge.place), self._edge.place
         if before is not None and before.recipe != terms.recipe and before.left is None and not alive(place):
             await self._edge.release(await self._edge.acquire("the end of an unattended run", GRACE))
-        self._lock = _locked(place)
+        self._lock = lock(place)
         if self._lock is None:
             who = before.recipe if before else "another one"
             text = f"the unattended run {who} is under way"
             raise PicoError(error("locked", text, hint="`pico stop` ends it"), ExitCode.LOCKED)
         self.terms, self._heard = replace(terms, left=None), time.monotonic()
-        _write(place, self.terms)
+        write(place, self.terms)
+        mark(self._lock, self.terms)
         self._watching = asyncio.create_task(self._watch())
         return before.left if before is not None and before.recipe == terms.recipe else None
 
@@ -113,7 +110,7 @@ class Alone:
                 return Left()
             left = self.terms.left or await self._bring("", moves)
             if moves and not left.why:
-                _file(self._edge.place).unlink(missing_ok=True)
+                erase(self._edge.place)
             self._drop()
             return left
 
@@ -137,6 +134,8 @@ class Alone:
         if self._watching is not None:
             self._watching.cancel()
         if self._lock is not None:
+            if self.terms is not None and self.terms.left is not None:
+                mark(self._lock, None)
             os.close(self._lock)
         self.terms = self._lock = self._watching = None
 
@@ -192,7 +191,7 @@ class Alone:
         left, self._left_as = self._left_as, None
         self.terms = replace(terms, left=left)
         with suppress(PicoError):  # a full disk must not hide how the bench was left
-            _write(edge.place, self.terms)
+            write(edge.place, self.terms)
         return left
 
     def due(self) -> bool:
@@ -235,7 +234,10 @@ class Alone:
         elif (before := self._due()) is not None:
             reached = tuple(end for end in before.end if end != PARKED)
             left = Left(why=KILLED, reached=reached, was=was)
-            _write(self._edge.place, replace(before, left=left))
+            write(self._edge.place, replace(before, left=left))
+            if (file := lock(self._edge.place)) is not None:
+                mark(file, None)
+                os.close(file)
 
     async def _found(self, terms: Terms, seen: Observation) -> None:
         setup = self._edge.setup
@@ -298,62 +300,3 @@ def _dark(setup: Setup, seen: Observation, why: str) -> Iterator[Operation]:
                 id=f"dark_{name}", primitive="set", component=name, reason=Reason(kind="interlock", text=why),
                 arguments={"tunable": LAMP, "from": now, "to": False}, resources=(f"{name}.{LAMP}", name),
             )  # fmt: skip
-
-
-# what the bench keeps of it
-
-
-def read(place: BenchPlace) -> Terms | None:
-    """Return the terms of the last unattended run that the bench knows; None if there was none.
-
-    Of a file that is damaged they are unknown: a run then counts as killed that has to leave every laser shut and every
-    lamp off, and whoever takes the bench next does so and writes the file anew.
-    """
-    path = _file(place)
-    try:
-        return UNATTENDED_TERMS.read(path, _terms)
-    except PicoError as exc:
-        text = f"an unattended run whose terms are damaged ({exc.diagnostics[0].summary})"
-        return Terms(recipe=text, laser_class="1", until="", every=0.0, end=(SHUT, LAMPS_OFF))
-
-
-def _terms(document: Mapping[str, Any]) -> Terms:
-    from pydantic import TypeAdapter
-
-    found: Terms = TypeAdapter(Terms).validate_python(document)
-    return found
-
-
-def alive(place: BenchPlace) -> bool:
-    """Return whether a process holds a run of this bench to its terms."""
-    try:
-        file = os.open(UNATTENDED_LOCK.path(place.folder), os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
-    except OSError:
-        return False
-    try:
-        fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
-        return False
-    except BlockingIOError:
-        return True
-    finally:
-        os.close(file)
-
-
-def _locked(place: BenchPlace) -> int | None:
-    folder = place.folder
-    folder.mkdir(parents=True, exist_ok=True)
-    file = os.open(UNATTENDED_LOCK.path(folder), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
-    try:
-        fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        os.close(file)
-        return None
-    return file
-
-
-def _write(place: BenchPlace, terms: Terms) -> None:
-    UNATTENDED_TERMS.write(_file(place), as_json(terms), indent=1)
-
-
-def _file(place: BenchPlace) -> Path:
-    return UNATTENDED_TERMS.path(place.folder)

@@ -91,6 +91,19 @@ def find_lab(start: Path) -> Path:
     raise PicoError([error("no-lab", f"no lab in {start} or any folder above it", hint=_NO_LAB), *missed])
 
 
+def find_lab_of_bench(start: Path) -> Path:
+    """Return the folder of the lab as `find_lab` does; if its manifest is gone, the nearest folder upward in which PICO
+    keeps a bench. Raises PicoError as `find_lab` does."""
+    try:
+        return find_lab(start)
+    except PicoError:
+        folder = start.resolve()
+        for candidate in (folder, *folder.parents):
+            if (candidate / ".pico" / "benches").is_dir():
+                return candidate
+        raise
+
+
 def bare_repository(folder: Path) -> Diagnostic:
     """Return that a folder is a bare repository, and how to get files to work on."""
     hint = f"clone it, and work in the clone: `git clone {folder} DIR`"

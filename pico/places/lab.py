@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import shlex
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -131,4 +132,6 @@ def refuse_links(folder: Path) -> frozenset[str]:
 
 def _link(path: Path) -> Diagnostic:
     text = f"{path} is a symbolic link, and PICO would write where it points"
-    return error("symlink", text, hint="delete it; what PICO keeps there it makes itself")
+    return error(
+        "symlink", text, hint=f"delete it: `rm {shlex.quote(str(path))}`; what PICO keeps there it makes itself"
+    )

@@ -13,8 +13,7 @@ from contextlib import contextmanager, suppress
 from copy import deepcopy
 from pathlib import Path
 
-from pico.base.state_files import RECORD
-from pico.disk import writing
+from pico.base.state_files import RECORD, RECORD_LOCK
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
 
 SHARED = ""
@@ -65,9 +64,7 @@ def note(place: LabPlace, record: Record, name: str) -> None:
 def recording(place: LabPlace) -> Iterator[Record]:
     """Read the record, and write it if it was changed; no other process does so meanwhile. Raises PicoError."""
     path = place.record
-    with writing(path, code="folder"):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        lock = os.open(path.with_suffix(".lock"), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+    lock = RECORD_LOCK.lock(path.with_suffix(".lock"))
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
         record = read_record(place)

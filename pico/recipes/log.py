@@ -8,19 +8,23 @@ of begins, or anybody hears of it.
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 from collections.abc import Mapping
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from pico.base.state_files import RECIPE_LOG
+from pico.base.plain_files import other_than_file, read_file, read_text
+from pico.base.state_files import RECIPE_LINES, RECIPE_LOG
 from pico.diagnostics import PicoError, error
 from pico.disk import unwritable
 from pico.edge.network.remotes import Place
 from pico.model.record import digest
 from pico.runs.damage import checksum
+from pico.runs.storage.change_count import Count
 
 SCHEMA = "pico.recipe_run/v1"
 UNWRITTEN = "recipe-unwritten"
@@ -64,8 +68,8 @@ class About:
 class Log:
     """The log of one run of a recipe. Raises PicoError where it can't be written."""
 
-    def __init__(self, path: Path, about: About, steps: dict[str, Logged], times: int = 0) -> None:
-        self.path, self.about, self.steps, self.times = path, about, steps, times
+    def __init__(self, path: Path, about: About, steps: dict[str, Logged], times: int = 0, lines: int = 0) -> None:
+        self.path, self.about, self.steps, self.times, self._lines = path, about, steps, times, lines
 
     @property
     def runs(self) -> list[str]:
@@ -82,9 +86,13 @@ class Log:
 
     @classmethod
     def read(cls, path: Path) -> Log:
-        """Return the log of a run that was begun before; a last line that was cut short does not count."""
+        """Return the log of a run that was begun before; a last line that was cut short does not count. Raises
+        PicoError for one that is damaged, or that has fewer lines than were written: its last lines are missing."""
         try:
-            lines = path.read_text(encoding="utf-8").split("\n")[:-1]
+            least = _count(path).least()  # first: a run may write a line at this moment
+            lines = read_text(path).split("\n")[:-1]
+            if (missing := least - len(lines)) > 0:
+                raise ValueError(f"its last {missing} lines are missing" if missing > 1 else "its last line is missing")
             if not lines:
                 raise ValueError("it does not say of which recipe it is")
             if (schema := json.loads(lines[0]).get("schema")) != SCHEMA:
@@ -99,7 +107,7 @@ class Log:
                 _take(steps, line)
         except (OSError, ValueError, KeyError, TypeError, AttributeError) as exc:
             raise PicoError(RECIPE_LOG.damaged(path, str(exc))) from exc
-        return cls(path, About(**known, ended=ended), steps, times)
+        return cls(path, About(**known, ended=ended), steps, times, len(lines))
 
     def begun(self, path: str, given: Any, at: Checked, kind: str = "") -> Logged:
         """Note that a step begins, where `at` is checked out; return what is known of it: where it began before, what
@@ -140,16 +148,25 @@ class Log:
         text = _text({**line, "checksum": checksum(_text(line))})
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            if what := other_than_file(self.path):
+                raise OSError(errno.EINVAL, f"it is {what}")
             with self.path.open("ab") as file:
                 if file.tell() and not _ends_line(self.path):
                     file.truncate(_whole(self.path))  # what a kill left of the last line
                 file.write(f"{text}\n".encode())
                 file.flush()
                 os.fsync(file.fileno())
+            self._lines += 1
+            with closing(_count(self.path)) as count:
+                count.note(self._lines, durable=True)
         except OSError as exc:
             found = unwritable(self.path, exc, what=f"{self.path} can't be written", code=UNWRITTEN)
             hint = f"{found.hint or 'mend that'}; `pico run --resume` goes on"
             raise PicoError(replace(found, hint=hint)) from exc
+
+
+def _count(path: Path) -> Count:
+    return Count(path.with_suffix(RECIPE_LINES.path(path).suffix))
 
 
 def folder(place: Place) -> Path:
@@ -196,4 +213,4 @@ def _ends_line(path: Path) -> bool:
 
 
 def _whole(path: Path) -> int:
-    return path.read_bytes().rfind(b"\n") + 1
+    return read_file(path).rfind(b"\n") + 1

@@ -15,6 +15,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import Any
 
+from pico.base.plain_files import read_text
 from pico.base.state_files import JOURNAL, RUN_MARK
 from pico.diagnostics import Diagnostic, PicoError, error
 
@@ -86,7 +87,7 @@ def marked_run(path: Path) -> str:
     written once the journal has the run."""
     if path.name == JOURNAL.name:  # and not a copy
         with suppress(OSError, UnicodeError):
-            return RUN_MARK.path(path.parent).read_text(encoding="ascii").strip()
+            return read_text(RUN_MARK.path(path.parent), "ascii").strip()
     return ""
 
 

@@ -10,7 +10,9 @@ times are for people, for a clock can be set back.
 
 from __future__ import annotations
 
+import errno
 import json
+import os
 import sqlite3
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
@@ -20,6 +22,8 @@ from typing import Any, Literal, cast
 
 from pico.base.clock import now_ms
 from pico.base.database import EMPTY, is_emptied, make_database
+from pico.base.plain_files import other_than_file
+from pico.base.state_files import JOURNAL
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.disk import refusing, unwritable
 from pico.model.observation import ObservedComponent, observed_from_json
@@ -127,6 +131,10 @@ class Journal:
         self._in_commits: dict[str, FromCommit | None] = {}
         self._count = ChangeCount(path)
         marked, least = marked_run(path), self._count.least()
+        immutable = f"{path.absolute().as_uri()}?immutable=1"
+        in_way = _in_way(path)
+        if in_way and not (looking and in_way[0] != path):  # looking needs only the journal itself
+            raise PicoError(JOURNAL.unreadable(*in_way))
         with self._guarded():
             if is_emptied(path):
                 raise sqlite3.DatabaseError(EMPTY)
@@ -141,11 +149,11 @@ class Journal:
                     path.parent.mkdir(parents=True, exist_ok=True)
                 if not path.exists() and str(path) != MEMORY:
                     make_database(path, _upgrade(0))
-                self._open(str(path))
+                self._open(immutable if in_way else str(path))
             except sqlite3.OperationalError:
                 if not looking or _is_open(path):
                     raise
-                self._open(f"{path.absolute().as_uri()}?immutable=1")
+                self._open(immutable)
             if marked:
                 self._require_run(marked)
             if self._counts and (missing := least - self._changes()) > 0:
@@ -512,6 +520,17 @@ def _upgrade(version: int) -> str:
     return f"BEGIN EXCLUSIVE;{SCRIPTS[version]}PRAGMA user_version={VERSION};COMMIT;"
 
 
+def _in_way(path: Path) -> tuple[Path, str] | tuple[()]:
+    """Return which of a journal and what SQLite has beside it is no file, or may not be read by this user, and why:
+    SQLite would only say that it cannot open or write its database."""
+    for one in (path, path.with_name(f"{path.name}-wal"), path.with_name(f"{path.name}-shm")):
+        if what := other_than_file(one):
+            return one, f"it is {what}"
+        if one.exists() and not os.access(one, os.R_OK):
+            return one, os.strerror(errno.EACCES)
+    return ()
+
+
 def _is_open(path: Path) -> bool:
     """Whether a process writes a journal, or was killed while it did: not all records are in the file itself then."""
     log = path.with_name(f"{path.name}-wal")
@@ -534,6 +553,8 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
         return error("journal", f"the journal {path} is locked", hint=hint)
     if isinstance(exc, sqlite3.DatabaseError) and not isinstance(exc, sqlite3.OperationalError):
         return error("journal", f"the journal {path} is damaged: {text}", hint=SALVAGE)
+    if "readonly database" in text and path.exists() and not os.access(path, os.W_OK) and not refusing(path.parent):
+        return JOURNAL.unreadable(path, os.strerror(errno.EACCES))
     return unwritable(path, refusing(path.parent) or exc, what=f"the journal {path} cannot be used", code="journal")
 
 

@@ -15,7 +15,9 @@ from pathlib import Path
 from typing import Any
 
 from pico.base.database import EMPTY, is_emptied
-from pico.base.state_files import CHANGE_COUNT
+from pico.base.plain_files import aside_of, other_than_file, remove_file
+from pico.base.state_files import CHANGE_COUNT, JOURNAL
+from pico.diagnostics import PicoError
 from pico.disk import writing
 from pico.model.operation import operation_from_json
 from pico.model.record import digest
@@ -101,6 +103,11 @@ def examine(path: Path) -> Examined:
     """Return all that can be read of the journal at `path`; the file and what lies beside it stay untouched. Raises
     PicoError if they can't be copied."""
     marked, least = marked_run(path), ChangeCount(path).least()
+    if what := other_than_file(path):
+        return Examined(broken=f"it is {what}", missing=marked)
+    for name in (f"{path.name}-wal", f"{path.name}-shm"):
+        if what := other_than_file(path.with_name(name)):
+            raise PicoError(JOURNAL.unreadable(path.with_name(name), f"it is {what}"))
     if not path.exists() or is_emptied(path):
         return Examined(broken=EMPTY if path.exists() else "the file is gone", missing=marked)
     lost = lost_transactions(path)
@@ -199,9 +206,19 @@ def salvage(found: Examined, known: Callable[[str], FromCommit | None], committe
             mended.append(run)
         else:
             lost.append(Lost(run, str(there[4]) if there else "", tuple(wrong.get(run, ()))))
-    ordered = sorted(records, key=lambda one: one[0])
-    return Salvage(sorted(runs, key=_order), [one for _, one in ordered], found.fence,
+    ordered = [one for _, one in sorted(records, key=lambda one: one[0])]
+    return Salvage(sorted(runs, key=_order), _distinct(ordered), found.fence,
                    len(runs) - len(mended), tuple(mended), tuple(lost))  # fmt: skip
+
+
+def _distinct(records: Rows) -> Rows:
+    """Return records without those that a torn table, or a commit beside it, holds twice: a sound one comes first."""
+    found: dict[tuple[Any, Any], tuple[Any, ...]] = {}
+    for row in records:
+        place = row[1], row[3]  # key and phase
+        if place not in found or (is_sound_record(row) and not is_sound_record(found[place])):
+            found[place] = row
+    return list(found.values())
 
 
 def _is_complete(row: Sequence[Any], rows: Rows, held: FromCommit | None) -> bool:
@@ -300,15 +317,15 @@ def _marks(count: int) -> str:
 def replace_journal(path: Path, new: Path) -> Path:
     """Put a journal in the place of the damaged one, which is set aside under a name that is free; return that name.
     Raises PicoError."""
-    number, aside = 1, path.with_name(f"{path.name}.damaged")
-    while aside.exists():
-        number, aside = number + 1, path.with_name(f"{path.name}.damaged-{number}")
+    aside = aside_of(path)
     with writing(path):
-        if path.exists():
+        if other_than_file(path):
+            path.rename(aside)
+        elif path.exists():
             os.link(path, aside)
         for suffix in ("-wal", "-shm"):  # before the new one takes the place: SQLite would play the old log into it
             if (one := path.with_name(path.name + suffix)).exists():
                 one.rename(aside.with_name(aside.name + suffix))
-        CHANGE_COUNT.path(path.parent).unlink(missing_ok=True)  # of the damaged one
+        remove_file(CHANGE_COUNT.path(path.parent))  # of the damaged one
         new.replace(path)
     return aside

@@ -164,7 +164,7 @@ def test_of_a_run_that_was_killed_before_it_moved_anything_that_is_told(shel: Pa
     with closing(Journal(shel / ".pico/benches/sim" / "journal.sqlite")) as journal:
         journal.begin_run("r1", plan.digest, "test", document=plan.to_json())
     (shel / ".pico/benches/sim" / "run").write_text("r1")
-    assert "run r1 was killed before it began an operation" in " ".join(pico("status").err.split())
+    assert "run r1 was killed before it moved anything" in " ".join(pico("status").err.split())
 
 
 def test_nothing_to_stop_or_to_undo_is_said(shel: Path, pico: Pico) -> None:

@@ -325,7 +325,7 @@ def test_a_choice_that_is_a_folder_hints_at_what_works(lab: Path, pico: Pico) ->
     path = lab / ".pico/chosen.json"
     path.mkdir(parents=True)
     refused = " ".join(pico("status").err.split())
-    assert f"`mv {path} {path}.old`" in refused and "`pico bench use sim`" in refused
+    assert f"`mv {path} {path}.damaged`" in refused and "`pico bench use sim`" in refused
     path.rename(f"{path}.old")
     done(pico, "bench", "use", "sim")
     assert pico("status").code == 0

@@ -16,9 +16,10 @@ from bench_at import bench_at
 from laser_lab import UNKNOWN, bench, observed, with_type
 
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.edge import unattended
+from pico.edge import terms_store, unattended
 from pico.edge.protocol import RECIPE
-from pico.edge.unattended import GRACE, KILLED, SILENCE, Alone, alive, read
+from pico.edge.terms_store import alive, read
+from pico.edge.unattended import GRACE, KILLED, SILENCE, Alone
 from pico.model.catalog import Tunable
 from pico.model.observation import Observation, ObservedRobot
 from pico.model.operation import Operation
@@ -346,8 +347,8 @@ def test_what_a_run_left_undone_whose_process_died_is_due_to_whoever_comes_next(
     tmp_path: Path, end: tuple[str, ...], who: str
 ) -> None:
     if who != "nobody":
-        unattended._write(bench_at(tmp_path), terms(end=end, left=Left(why="x") if who == "left" else None))
-    lock = unattended._locked(bench_at(tmp_path)) if who == "alive" else None
+        terms_store.write(bench_at(tmp_path), terms(end=end, left=Left(why="x") if who == "left" else None))
+    lock = terms_store.lock(bench_at(tmp_path)) if who == "alive" else None
     edge = Edge(tmp_path, laser=LIT, second={"shutter": "open"}, bare={"emission": True}, holder={"illumination": True})
     alone = Alone(edge)  # type: ignore[arg-type]
     due = tuple(alone.tidies(SETUP, asyncio.run(edge.observe())))
@@ -410,12 +411,12 @@ def test_one_run_is_held_at_a_time_and_the_terms_of_one_that_died_are_brought_ab
         assert caught.value.exit_code == ExitCode.LOCKED and other.terms is None and alive(bench_at(tmp_path))
 
     held(edge, go)
-    unattended._write(bench_at(tmp_path), terms())
+    terms_store.write(bench_at(tmp_path), terms())
     again = Edge(tmp_path, laser=LIT)
     held(again, lambda alone: asyncio.sleep(0), recipe="other@x")
     assert again.said == ["acquire the end of an unattended run 60", "release"]
     assert again.values["laser"]["shutter"] == "closed"
-    unattended._write(bench_at(tmp_path), terms())
+    terms_store.write(bench_at(tmp_path), terms())
     same = Edge(tmp_path, laser=LIT)
     held(same, lambda alone: asyncio.sleep(0))
     assert same.said == [] and same.values["laser"] == LIT, "it goes on with what it had"
@@ -423,7 +424,7 @@ def test_one_run_is_held_at_a_time_and_the_terms_of_one_that_died_are_brought_ab
 
 @pytest.mark.parametrize("recipe", [NAME, "other@x"])
 def test_a_run_that_is_taken_up_hears_how_it_was_left(tmp_path: Path, recipe: str) -> None:
-    unattended._write(bench_at(tmp_path), terms(left=Left(why="w", reached=("shut",))))
+    terms_store.write(bench_at(tmp_path), terms(left=Left(why="w", reached=("shut",))))
     edge = Edge(tmp_path)
 
     async def go() -> Left | None:
@@ -438,7 +439,7 @@ def test_a_run_that_is_taken_up_hears_how_it_was_left(tmp_path: Path, recipe: st
 
 @pytest.mark.parametrize("text", ["", "{", "[]", '{"recipe": 3}', "null"])
 def test_terms_that_cannot_be_read_count_as_a_killed_run_that_shuts_everything(tmp_path: Path, text: str) -> None:
-    unattended._write(bench_at(tmp_path), terms())
+    terms_store.write(bench_at(tmp_path), terms())
     path = bench_at(tmp_path).folder / "unattended.json"
     assert json.loads(path.read_text())["recipe"] == NAME and read(bench_at(tmp_path)) == terms()
     path.write_text(text)

@@ -10,12 +10,14 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from bench_at import bench_at
 from serving import served
 
 from pico.bench.bench import Bench
 from pico.bench.cut_short import told_first
+from pico.bench.mending.files import damaged_files
 from pico.diagnostics import ExitCode, PicoError
-from pico.edge import unattended
+from pico.edge import terms_store, unattended
 from pico.edge.protocol import RECIPE, Job
 from pico.history.examples.example import make_example
 from pico.model.observation import live_state
@@ -106,6 +108,42 @@ def test_a_process_of_its_own_that_is_killed_is_told_of_and_whatever_takes_the_b
         again = left_of(bench)
         assert again.reached == ("shut", "lamps off") and again.was["laser.shutter"] == "open"
         assert bench.wait(bench.edge.hold(terms())) == again  # taken up: it may open what its end had shut
+
+
+@pytest.mark.parametrize("lost", [("unattended.json",), ("unattended.json", "unattended.lock")])
+def test_one_whose_terms_were_deleted_after_it_was_killed_is_known_from_its_lock_or_the_journal(
+    lab: Path, lost: tuple[str, ...]
+) -> None:
+    killed(begun(lab))
+    for name in lost:
+        (bench_at(lab).folder / name).unlink()
+    (said,) = (one for one in damaged_files(lab, Path) if one.code == "unattended")
+    assert str(bench_at(lab).folder / "unattended.json") in said.summary and "`pico recover`" in said.hint
+    with Bench.open(lab) as bench:
+        first, why, *_ = told_first(bench, bench.observe())
+        assert "night ended: its process was killed" in first.summary and "not left shut" in why.summary
+        (said,) = bench.recovery.settle()
+        assert not emits(bench) and "left shut, lamps off" in said.detail
+        assert left_of(bench).reached == ("shut", "lamps off")
+    assert not [one for one in damaged_files(lab, Path) if one.code == "unattended"]
+
+
+def test_a_run_that_was_left_as_it_states_leaves_no_terms_behind(lab: Path) -> None:
+    with Bench.open(lab) as bench:
+        open_run(bench)
+        assert "night" in (bench_at(lab).folder / "unattended.lock").read_text()
+        bench.wait(bench.edge.leave(NAME, True))
+        assert bench.wait(bench.edge.unattended()) is None and terms_store.read(bench_at(lab)) is None
+    assert (bench_at(lab).folder / "unattended.lock").read_bytes() == b""
+
+
+def test_damaged_terms_in_the_lock_count_as_a_killed_run_that_shuts_everything(lab: Path) -> None:
+    killed(begun(lab))
+    (bench_at(lab).folder / "unattended.json").unlink()
+    lock = bench_at(lab).folder / "unattended.lock"
+    lock.write_bytes(lock.read_bytes()[:-20])
+    found = terms_store.read(bench_at(lab))
+    assert found is not None and found.left is None and set(found.end) == {"shut", "lamps off"}
 
 
 def test_one_that_is_taken_up_before_that_is_held_again_and_nothing_is_shut(lab: Path) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+import os
 import sqlite3
 from collections.abc import Callable, Iterator
 from contextlib import closing
@@ -10,13 +12,15 @@ from pathlib import Path
 
 from pico.backends.sim.store import world_from_json
 from pico.base import state_files
+from pico.base.plain_files import other_than_file
 from pico.base.state_file import StateFile, quoted
-from pico.base.state_files import files_below
+from pico.base.state_files import files_below, files_in_git
 from pico.bench.mending.journal import examine_journal, missing_journal
 from pico.diagnostics import Diagnostic, PicoError, error, warning
-from pico.edge import armings, dose, own_lab
+from pico.edge import armings, dose, own_lab, terms_store
 from pico.edge.network.enrolment import read_enrolment
 from pico.edge.network.remotes import known as known_remotes
+from pico.edge.recovery import lost_table
 from pico.places.bench import BenchPlace, local_benches
 from pico.places.choice import read_choice
 from pico.places.lab import lab_place
@@ -30,20 +34,34 @@ def damaged_files(root: Path, read_log: Callable[[Path], object]) -> tuple[Diagn
     with it and what to do; what PICO mends itself is a warning. `read_log`: reads what a run of a recipe has done, and
     raises PicoError."""
     found = dict[str, Diagnostic]()
-    for path, name, entry in files_below(root):
+    lab = lab_place(root)
+    in_git = ((p, n, e) for p, n, e in (files_in_git(lab.common) if lab else ()) if other_than_file(p))
+    for path, name, entry in (*files_below(root), *in_git):
         for one in _of_recipe(path, read_log) if entry is state_files.RECIPE_LOG else _of_file(root, path, name, entry):
             found.setdefault(f"{path}{one.summary}", one)
     for one in _as_read(root):
-        if not any(one.summary == known.summary for known in found.values()):
+        if not any(one.summary == known.summary or _is_link_of(known, one) for known in found.values()):
             found[one.summary] = one
     return tuple(found.values())
+
+
+def _is_link_of(known: Diagnostic, one: Diagnostic) -> bool:
+    """Return whether a file that a reader cannot read is a link that is reported already."""
+    return known.code == "symlink" and known.summary.split(" is ")[0] == one.summary.split(" cannot be read")[0]
 
 
 def _of_file(root: Path, path: Path, name: str, entry: StateFile | None) -> Iterator[Diagnostic]:
     if path.name.startswith(".") and ".tmp" in path.name:  # of a process that was killed; the next lock clears it
         return
+    if entry is state_files.DAMAGED:  # it was set aside, whatever it is
+        return
     if path.is_symlink():
-        yield error("symlink", f"{path} is a symbolic link, and PICO would write where it points", hint="delete it")
+        text = f"{path} is a symbolic link, and PICO would write where it points"
+        yield error("symlink", text, hint=f"delete it: `rm {quoted(path)}`")
+    elif (what := other_than_file(path)) and entry is not None:
+        yield entry.unreadable(path, f"it is {what}")
+    elif not what and not os.access(path, os.R_OK):
+        yield (entry or state_files.DAMAGED).unreadable(path, os.strerror(errno.EACCES))
     elif entry is None:
         text = f"{path} is not one of the files that PICO keeps there"
         yield warning("state-unknown", text, hint=f"look at it; `rm {quoted(path)}` if it is not yours")
@@ -86,6 +104,7 @@ def _as_read(root: Path) -> Iterator[Diagnostic]:
         asked += [lambda at=place: own_lab.read(at), lambda at=place: dose.read(at)]  # type: ignore[misc]
         asked += [lambda at=place: read_enrolment(at)]  # type: ignore[misc]
         yield from missing_journal(place)
+        yield from (one for one in (terms_store.missing(place), lost_table(place)) if one is not None)
         for one in armings.kept(place):
             if one.broken:
                 path = place.folder / armings.FOLDER / f"{one.laser}.json"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,8 +12,9 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.edge.lease import BenchLock
 from pico.history.runs.carrying import carried_runs
 from pico.places.bench import BenchPlace
-from pico.runs.damage import SALVAGE, FromCommit, from_commit, marked_run
+from pico.runs.damage import SALVAGE, FromCommit, from_commit, lost_end, marked_run
 from pico.runs.salvage import Examined, Salvage, examine, replace_journal, salvage, write_journal
+from pico.runs.storage.change_count import ChangeCount
 
 NAMED = 5
 """So many runs are named one by one."""
@@ -50,18 +52,23 @@ def examine_journal(root: Path, path: Path) -> Iterator[Diagnostic]:
 
 
 def missing_journal(place: BenchPlace) -> Iterator[Diagnostic]:
-    """Yield that a bench has a Lab of its own and no journal, though commits hold runs of it."""
+    """Yield that a bench has no journal, though it was written to, or though commits hold runs of it. A bench that has
+    adopted its Lab has one: both are made when it is taken first."""
     path = JOURNAL.path(place.folder)
-    if path.exists() or not OWN_LAB.path(place.folder).exists():
+    if os.path.lexists(path):
+        return
+    if least := ChangeCount(path).least():
+        yield lost_end(path, f"the file is gone, and it was written to {least} times")
+        return
+    if not os.path.lexists(OWN_LAB.path(place.folder)):
         return
     try:
         known = carried_runs(place.attached.root, place.title)
     except PicoError:  # a repository or manifests that can't be read, which is told already
         return
-    if known:
-        text = f"the bench {place.name} has no journal, and commits hold {len(known)} runs of it: {path}"
-        hint = "if it was deleted, `pico doctor --journal --yes` makes a new one of what commits hold"
-        yield warning("journal", text, hint=hint)
+    text = f"the bench {place.name} has no journal, and commits hold {len(known)} runs of it: {path}"
+    hint = "if it was deleted, `pico doctor --journal --yes` makes a new one of what commits hold"
+    yield warning("journal", text, hint=hint)
 
 
 def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:

@@ -129,6 +129,7 @@ class Custody:
                     raise
             prepare()
             bench = self._apparatus
+            self._licensing.restore_terms()
             await bench.device.take(lease.token, self.tenant.hear, lambda: self._require(under_way=True))
             executing, journal = self._executing(), bench.journals.journal
             self._attempts, self.lease = Attempts(journal, executing, lease.token, self._require), lease

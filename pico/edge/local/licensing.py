@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from pico.base.state_files import UNATTENDED
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.edge.local.apparatus import Apparatus
 from pico.edge.local.sight import Sight
 from pico.model.observation import Observation
+from pico.model.record import as_json
 from pico.places.attachment import require_attached
 
 if TYPE_CHECKING:
@@ -24,6 +23,7 @@ if TYPE_CHECKING:
     from pico.model.trace.dose import Dose
     from pico.model.trace.unattended import Left, Terms
 
+DISARMING = "pico laser disarm"
 SHUT_WITHIN = 150
 """So often is looked whether who has the bench has shut a laser that was disarmed."""
 AGAIN = 0.02
@@ -69,14 +69,44 @@ class Licensing:
         require_attached(own.place)
         now, known = own.now(), {one.laser: one.arming for one in await self.armings()}
         keep(own.place, ended(own.setup, known.get(laser), laser, by, (await own.device.describe()).name, now))
+        refused: PicoError | None = None
         for _ in range(SHUT_WITHIN):
             if edge.lease is None and await edge.holder() is None:
-                with suppress(PicoError):  # who takes the bench next shuts it, or has it and does
-                    await edge.release(await edge.acquire("pico laser disarm"))
+                try:
+                    await edge.release(await edge.acquire(DISARMING))
+                except PicoError as exc:
+                    if exc.exit_code != ExitCode.LOCKED:  # nobody else shuts it: a journal that can't be used, say
+                        return await self._shut_unrecorded(laser)
+                    if exc.diagnostics[0].code != "locked":
+                        refused = exc
             if laser not in {one.laser for one in await self.armings()}:
                 return True
             await asyncio.sleep(AGAIN)
+        if refused is not None:
+            raise refused
         return False
+
+    async def _shut_unrecorded(self, laser: str) -> bool:
+        """Shut a laser though the bench cannot be taken as usual: light never stays on for a journal that is damaged, a
+        Lab that is, or a question that is open. Nothing records it. Returns whether it is shut; raises PicoError."""
+        from pico.edge.armings import forget
+        from pico.edge.emission import shutting
+        from pico.edge.lease import BenchLock
+        from pico.edge.running import new_run_id
+
+        own = self._apparatus
+        with BenchLock(own.place, own.now).held(DISARMING) as lease:
+            await own.device.take(lease.token, lambda _: None, lambda: None)
+            try:
+                operation = shutting(own.setup, await self._sight.observe(), laser, "it is disarmed")
+                if operation is not None:
+                    key = f"{new_run_id()}/{operation.id}/1"
+                    if (await own.device.execute(operation, key, lambda _: None)).outcome != "done":
+                        return False
+            finally:
+                await own.device.leave()
+        forget(own.place, laser)
+        return True
 
     def arming_over(self) -> bool:
         """Return whether an arming has ended since this was asked last, while the bench is free."""
@@ -152,8 +182,23 @@ class Licensing:
 
     async def unattended(self) -> Terms | None:
         """Return the terms of an unattended run; see `pico.edge.contract.EdgeLicensing`."""
-        known = self._alone is not None or UNATTENDED.path(self._apparatus.place.folder).exists()
+        from pico.edge.terms_store import is_known
+
+        known = self._alone is not None or is_known(self._apparatus.place)
         return self.alone.known() if known else None
+
+    def restore_terms(self) -> None:
+        """Write the terms of an unattended run that was killed anew if their file is gone; raises PicoError."""
+        from pico.edge.terms_store import restore
+
+        restore(self._apparatus.place)
+
+    def about(self) -> dict[str, Any]:
+        """Return what the journal holds about a run for the terms that it is held to; nothing if it is held to none."""
+        from pico.edge.terms_store import ABOUT
+
+        terms = self._alone.terms if self._alone is not None else None
+        return {} if terms is None or terms.left is not None else {ABOUT: as_json(terms)}
 
     async def close(self) -> None:
         """Hold nothing any more: this process ends."""

@@ -208,7 +208,8 @@ class Runs:
     def _begin(self, job: Job, run: str, able: Capabilities, lease: Lease) -> None:
         from pico.edge.about import about_run
 
-        about, journals = about_run(self._apparatus.setup, job.plan, able), self._apparatus.journals
+        about = {**about_run(self._apparatus.setup, job.plan, able), **self._licensing.about()}
+        journals = self._apparatus.journals
         if job.resumes:
             journals.journal.resume_run(run, about)
         else:

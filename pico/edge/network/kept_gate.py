@@ -10,6 +10,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from pico.base.database import EMPTY, is_emptied, make_database
+from pico.base.plain_files import other_than_file
 from pico.base.state_files import GATE
 from pico.control.gate import Command, Memory, Phase, Record
 from pico.diagnostics import PicoError, error
@@ -33,6 +34,8 @@ class KeptGate:
 
     def __init__(self, path: Path) -> None:
         self._path = path
+        if what := other_than_file(path):
+            raise PicoError(GATE.unreadable(path, f"it is {what}"))
         with self._guarded():
             path.parent.mkdir(parents=True, exist_ok=True)
             if is_emptied(path):

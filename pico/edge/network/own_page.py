@@ -12,8 +12,8 @@ import time
 from contextlib import suppress
 from dataclasses import replace
 
+from pico.base.state_files import PAGE_LOCK
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.disk import writing
 from pico.edge.network import remotes
 from pico.edge.network.tokens import keep_token
 from pico.places.bench import BenchPlace
@@ -30,9 +30,7 @@ class OwnPage:
         root = place.root
         self._place, self._url = place, url
         path = remotes.lock_of_page(root)
-        with writing(path, code="remote"):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            self._lock = os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+        self._lock = PAGE_LOCK.lock(path)
         try:
             _take(self._lock)
             known = remotes.left_over_put_back(root)

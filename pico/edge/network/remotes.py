@@ -17,6 +17,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
 
+from pico.base.plain_files import open_lock
 from pico.base.state_files import REMOTES
 from pico.diagnostics import PicoError, did_you_mean, error
 from pico.places.bench import BenchPlace, local_benches
@@ -193,7 +194,7 @@ def at_url(root: Path, word: str) -> Far:
 
 def _healed(root: Path, found: Remotes) -> Remotes:
     try:
-        lock = os.open(lock_of_page(root), os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+        lock = open_lock(lock_of_page(root))
     except OSError:
         return found
     try:

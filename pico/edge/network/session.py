@@ -6,8 +6,8 @@ import os
 import secrets
 from pathlib import Path
 
+from pico.base.plain_files import read_text
 from pico.base.state_files import RUNS_BEGUN, SESSION
-from pico.disk import write_whole
 
 VARIABLE = "PICO_SESSION"
 
@@ -19,26 +19,24 @@ def session_in(folder: Path) -> str:
         return said
     path = SESSION.path(folder)
     try:
-        if found := path.read_text(encoding="ascii").strip():
+        if found := read_text(path, "ascii").strip():
             return found
     except (OSError, ValueError):
         pass
     made = secrets.token_hex(16)
-    write_whole(path, made.encode(), folders=True)
+    SESSION.put(path, made.encode())
     return made
 
 
 def begun(folder: Path, run: str) -> None:
     """Note that this checkout began a run, which it will carry into a commit; raises PicoError."""
     if run not in runs_begun(folder):
-        write_whole(
-            RUNS_BEGUN.path(folder), "".join(f"{one}\n" for one in [*runs_begun(folder), run]).encode(), folders=True
-        )
+        RUNS_BEGUN.put(RUNS_BEGUN.path(folder), "".join(f"{one}\n" for one in [*runs_begun(folder), run]).encode())
 
 
 def runs_begun(folder: Path) -> tuple[str, ...]:
     """Return the runs that this checkout began, in order."""
     try:
-        return tuple(RUNS_BEGUN.path(folder).read_text(encoding="utf-8").split())
+        return tuple(read_text(RUNS_BEGUN.path(folder)).split())
     except (OSError, UnicodeError):
         return ()

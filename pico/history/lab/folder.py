@@ -9,7 +9,7 @@ from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.history.git import command as git
@@ -24,7 +24,7 @@ from pico.history.writing.recovery import anything_left
 from pico.manifest.bench_view import has_part
 from pico.manifest.file_names import BENCH_LAB, LAB_DIFFERS, RENAMED
 from pico.manifest.files import bench_files, read_folder, shown_path, states_alone
-from pico.manifest.load import Manifests, find_lab, load_files
+from pico.manifest.load import Manifests, find_lab, find_lab_of_bench, load_files
 from pico.model.address import Named, former_names, renamed_keys, renamed_state, renaming_between, renaming_of
 from pico.model.diff import Change, diff_states
 from pico.model.quantities import Value
@@ -45,6 +45,8 @@ if TYPE_CHECKING:
 
 FULL = 40
 """Digits of the whole id of a commit."""
+Safety = Literal["", "light", "hands"]
+"""For what a bench is opened whatever its manifests say: to switch light off, or to empty hands, too."""
 BenchFiles = tuple[tuple[str, bytes], ...]
 
 
@@ -82,26 +84,31 @@ class LabFolder:
     `place` is the bench whose runs count as the lab's own until a commit has them; without one there are none. With
     `keeps`, its `setup` is what that bench keeps as its own Lab (`own`), whatever the working tree says, which only
     proposes another one; if it keeps none yet, what the working tree says now. Else `own` is None.
+
+    `safety`: for what switches light off or empties a hand, which never depends on the manifests. If they are wrong or
+    gone, the bench is the Lab that it keeps as its own, and `wrong` says what is wrong. To switch `light` off, and not
+    to move an arm, it may also be what the manifests describe, or HEAD, if its own Lab is damaged.
     """
 
     def __init__(
-        self, path: Path, *, history: bool = False, place: Place | None = None, keeps: bool = False
+        self, path: Path, *, history: bool = False, place: Place | None = None, keeps: bool = False,
+        safety: Safety = "",
     ) -> None:  # fmt: skip
-        self.root, self.place = find_lab(path), place
+        self.root, self.place = find_lab_of_bench(path) if safety else find_lab(path), place
         own_folder(self.root)
-        self.own = _kept(place) if place and keeps else None
+        self.wrong: PicoError | None = None
         self._keeps = keeps
+        self.own = self._own_lab(place, safety) if place and keeps else None
         self._benches: dict[BenchFiles, Setup | None] = {}
         self._files: dict[str, bytes] = {}
         self._historic: dict[str, tuple[Setup, LabState]] = {}
         self._writing = False
-        self.wrong: PicoError | None = None
-        self._recover()
         try:
+            self._recover()
             self.reload()
         except PicoError as exc:
             self.wrong = exc
-            if not history or not self._stand_in():
+            if not (safety and self._go_by_own()) and not ((history or safety == "light") and self._stand_in()):
                 raise
 
     @property
@@ -185,11 +192,38 @@ class LabFolder:
         self.setup, self.state = manifests.require()
         self._files = files
 
+    def _own_lab(self, place: Place, safety: Safety) -> OwnLab | None:
+        """Return the Lab that the bench keeps. If that is damaged, and only light is to be switched off, the bench is
+        what its manifests describe, and no other Lab is compared with it. Raises PicoError."""
+        try:
+            return _kept(place)
+        except PicoError as exc:
+            if safety != "light":
+                raise
+            self.wrong, self._keeps = exc, False
+            return None
+
+    def _go_by_own(self) -> bool:
+        """Take the bench from the Lab that it keeps as its own, every part at home, and return whether that was
+        possible."""
+        from pico.edge.own_lab import setup_of
+
+        if self.own is None:
+            return False
+        try:
+            self.setup = self.described = setup_of(self.own)
+        except PicoError:
+            return False
+        self.state = home_state(self.setup)
+        self.manifests = Manifests(self.setup, self.state, ())
+        return True
+
     def _stand_in(self) -> bool:
         """Take bench and state from HEAD, and return whether that was possible."""
         try:
             self.manifests = load_files(_named("HEAD", self.history().files("HEAD", self.root, [])))
             self.setup, self.state = self.manifests.require()
+            self.described = self.setup
         except PicoError:
             return False
         return True

@@ -14,8 +14,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from pico.base.state_files import GIT_LOCK
 from pico.diagnostics import PicoError, error
-from pico.disk import writing
 
 WAIT = 60.0
 """Seconds that a writer waits for another one: as long as somebody's pre-commit hooks may take."""
@@ -44,9 +44,7 @@ def write_lock(path: Path, doing: str, seconds: float = WAIT) -> Iterator[None]:
 
 
 def _open(path: Path) -> int:
-    with writing(path, code="folder"):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        return os.open(path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW, 0o666)
+    return GIT_LOCK.lock(path)
 
 
 def _locked(file: int) -> bool:

@@ -13,6 +13,7 @@ from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
+from pico.base.plain_files import open_file, read_text, set_aside
 from pico.base.state_files import CHANGE_COUNT, JOURNAL
 
 _BOOT = Path("/proc/sys/kernel/random/boot_id")
@@ -20,33 +21,36 @@ LENGTH = 100
 """Bytes of the file."""
 
 
-class ChangeCount:
-    """The count beside the journal at `path`; none beside a copy under another name."""
+class Count:
+    """The count in the file at `path` of what another file holds: changes, or lines; None keeps none."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = CHANGE_COUNT.path(path.parent) if path.name == JOURNAL.name else None
+    def __init__(self, path: Path | None) -> None:
+        self._path = path
         self._durable = 0
         self._file: int | None = None
 
     def least(self) -> int:
-        """Return how many changes the journal has at least; 0 if the file is missing or damaged."""
+        """Return how many the other file holds at least; 0 if the count is missing or damaged."""
         with suppress(OSError, ValueError, UnicodeError):
             if self._path is not None:
-                text, _, checksum = self._path.read_text(encoding="ascii").strip().rpartition(" ")
+                text, _, checksum = read_text(self._path, "ascii").strip().rpartition(" ")
                 if int(checksum) == zlib.crc32(text.encode()):
                     durable, written, *boot = text.split(" ")
                     return int(written) if boot == [_booted()] else int(durable)
         return 0
 
     def note(self, changes: int, *, durable: bool) -> None:
-        """Keep how many changes the journal has now; a disk that takes nothing keeps what was there."""
+        """Keep how many there are now; a disk that takes nothing keeps what was there."""
         if self._path is None:
             return
         self._durable = changes if durable else self._durable
         text = f"{self._durable} {changes} {_booted()}"
         with suppress(OSError):
+            if self._file is not None and not os.fstat(self._file).st_nlink:  # somebody deleted it
+                self.close()
             if self._file is None:
-                self._file = os.open(self._path, os.O_WRONLY | os.O_CREAT | os.O_CLOEXEC, 0o644)
+                set_aside(self._path)
+                self._file = open_file(self._path, os.O_WRONLY | os.O_CREAT)
             os.pwrite(self._file, f"{text} {zlib.crc32(text.encode())}".ljust(LENGTH).encode(), 0)
 
     def close(self) -> None:
@@ -54,6 +58,13 @@ class ChangeCount:
         if self._file is not None:
             os.close(self._file)
             self._file = None
+
+
+class ChangeCount(Count):
+    """The count of changes of the journal at `path`, beside it; none beside a copy under another name."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(CHANGE_COUNT.path(path.parent) if path.name == JOURNAL.name else None)
 
 
 @cache

@@ -12,6 +12,8 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
+from pico.base.plain_files import read_file
+
 LITTLE, BIG = 0x377F0682, 0x377F0683
 HEADER, FRAME = 32, 24
 CUT_OFF = 1
@@ -26,9 +28,9 @@ def lost_transactions(journal: Path) -> int:
     with suppress(OSError):
         if path.stat().st_size < HEADER + FRAME:
             return 0
-        if found := _behind(path.read_bytes()):
+        if found := _behind(read_file(path)):
             time.sleep(PAUSE)
-            return found[1] if _behind(path.read_bytes())[:1] == found[:1] else 0
+            return found[1] if _behind(read_file(path))[:1] == found[:1] else 0
     return 0
 
 

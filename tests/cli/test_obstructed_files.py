@@ -1,0 +1,184 @@
+"""Something other than a file in the place of a state file: nothing waits for it, it is named with a command that
+works, and it never keeps light on."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import signal
+import socket
+import subprocess
+from collections.abc import Iterator
+from contextlib import chdir, closing, contextmanager
+from pathlib import Path
+from types import FrameType
+
+import pytest
+from commanding import Brought, Pico, apply_manifest
+from pico_cli.session import lost_warning
+
+from pico.base.state_files import JOURNAL, OWN_LAB, WORLD
+from pico.diagnostics import PicoError
+from pico.model.operation import Operation, OperationResult, Reason
+from pico.places.bench import BenchPlace
+from pico.runs.journal import Journal
+from pico.runs.storage.change_count import ChangeCount
+
+KINDS = ("folder", "pipe", "socket", "link")
+OF_BENCH = (
+    "journal.sqlite", "journal.sqlite-wal", "journal.sqlite-shm", "armed/laser.json", "unattended.json",
+    "unattended.lock", "lock", "holder.json", "settings.json", "devices.json", "lab.json", "changes", "run",
+    "called.json", "dose.json", "enrolment.json", "edge.json", "world.json",
+)  # fmt: skip
+OF_GIT = ("bench.json", "bench.lock", "labs.json", "write.lock", "remotes.json")
+CASES = [(f".pico/benches/sim/{name}", KINDS[n % 3]) for n, name in enumerate(OF_BENCH)]
+CASES += [(f".git/pico/{name}", KINDS[(n + 1) % 4]) for n, name in enumerate(OF_GIT)]
+CASES += [(".pico/benches/sim/armed/laser.json", "link"), (".pico/benches/sim/lock", "link"),
+          (".pico/benches/sim/unattended.json", "folder")]  # fmt: skip
+MORE = {
+    "journal.sqlite": "doctor --journal --yes", "journal.sqlite-wal": "doctor --journal --yes",
+    "lab.json": "bench update --yes", "world.json": "sim reset",
+}  # fmt: skip
+"""What is called after the command that moves the obstacle away, where the content is lost, too."""
+
+
+DECIDING = ("lock", "world.json", "enrolment.json", "bench.json", "bench.lock", "remotes.json")
+"""What says which bench it is, who may take it and what is on it: light stays as it is until that can be read."""
+
+
+@pytest.fixture
+def lit(brought: Brought, shel: Path) -> Path:
+    """A lab whose laser emits."""
+    brought(apply_manifest)
+    assert emits(shel)
+    return shel
+
+
+def emits(lab: Path) -> bool:
+    world = json.loads((lab / ".pico/benches/sim/world.json").read_text())
+    return bool(world["components"]["laser"]["values"]["shutter"]["value"] == "open")
+
+
+def put(path: Path, kind: str) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.unlink(missing_ok=True)
+    if kind == "folder":
+        path.mkdir()
+    elif kind == "pipe":
+        os.mkfifo(path)
+    elif kind == "link":
+        path.symlink_to("nowhere")
+    else:
+        with chdir(path.parent), socket.socket(socket.AF_UNIX) as one:  # a name of its own: paths of sockets are short
+            one.bind(path.name)
+
+
+@contextmanager
+def within(seconds: int) -> Iterator[None]:
+    def hangs(signum: int, frame: FrameType | None) -> None:
+        raise TimeoutError("it waits for something that is no file")
+
+    before = signal.signal(signal.SIGALRM, hangs)
+    signal.alarm(seconds)
+    try:
+        yield
+    finally:
+        signal.alarm(0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@pytest.mark.parametrize(("name", "kind"), CASES)
+def test_what_is_no_file_is_named_with_what_moves_it_away_and_keeps_no_light_on(
+    lit: Path, pico: Pico, name: str, kind: str
+) -> None:
+    path = lit / name
+    put(path, kind)
+    with within(60):
+        looked = pico("status")
+        doctor = pico("doctor")
+        assert doctor.code == 1 or "warning" in doctor.err, doctor
+        assert str(path) in doctor.err and "internal" not in looked.err + doctor.err
+        shut = pico("laser", "disarm", "laser")
+    assert "internal" not in shut.err and "read-only" not in looked.err + doctor.err
+    if path.name not in DECIDING and not (kind == "link" and path.parent.name == "sim"):
+        assert shut.code == 0 and not emits(lit), shut
+    elif path.name != "world.json":
+        assert str(path) in " ".join(shut.err.split()), shut
+    if os.path.lexists(path) and not path.is_file():  # else the command has moved it away itself
+        said = " ".join(doctor.err.split())
+        commands = [one for one in re.findall(r"`((?:mv|rm) [^`]*)`", said) if str(path) in one]
+        assert len(set(commands)) == 1, said
+        subprocess.run(commands[0], shell=True, check=True)
+    if path.name in MORE:
+        assert pico(*MORE[path.name].split()).code == 0
+    after = pico("doctor")
+    assert after.code == 0, after
+    assert pico("set", "p1", "angle=4", "--yes").code == 0
+    assert path.name == "world.json" or pico("laser", "disarm", "laser").code == 0
+
+
+def test_a_count_that_is_deleted_while_the_journal_is_open_is_written_again(tmp_path: Path) -> None:
+    count = ChangeCount(tmp_path / JOURNAL.name)
+    count.note(3, durable=True)
+    (tmp_path / "changes").unlink()
+    count.note(4, durable=True)
+    assert ChangeCount(tmp_path / JOURNAL.name).least() == 4
+    count.close()
+    (tmp_path / "changes").unlink()
+    (tmp_path / "changes").mkdir()
+    count.note(5, durable=True)
+    assert ChangeCount(tmp_path / JOURNAL.name).least() == 5 and (tmp_path / "changes.damaged").is_dir()
+    count.close()
+
+
+def test_what_is_in_the_way_is_set_aside_under_a_name_that_is_free(tmp_path: Path) -> None:
+    path = tmp_path / "lab.json"
+    (tmp_path / "lab.json.damaged").write_text("kept")
+    path.mkdir()
+    with pytest.raises(PicoError, match="it is a folder") as refused:
+        OWN_LAB.read(path, dict)
+    assert f"`mv {path} {path}.damaged-2`" in refused.value.diagnostics[0].hint
+    OWN_LAB.write(path, {"a": 1})
+    assert path.is_file() and (tmp_path / "lab.json.damaged-2").is_dir()
+    assert (tmp_path / "lab.json.damaged").read_text() == "kept"
+
+
+def test_permissions_that_keep_a_file_from_being_read_are_named_with_what_gives_them(tmp_path: Path) -> None:
+    path = tmp_path / "lab.json"
+    path.write_text("{}")
+    said = OWN_LAB.unusable(path, PermissionError(13, "Permission denied"))
+    assert "permission denied" in said.summary and f"`chmod u+rw {path}`" in said.hint
+
+
+def test_a_journal_or_a_table_that_is_gone_is_missed_by_doctor(lit: Path, pico: Pico) -> None:
+    folder = lit / ".pico/benches/sim"
+    (folder / "world.json").unlink()
+    said = pico("doctor")
+    assert said.code == 1 and str(folder / "world.json") in said.err and "`pico --bench sim sim reset`" in said.err
+    (folder / "journal.sqlite").unlink()
+    (folder / "changes").unlink()
+    assert str(folder / "journal.sqlite") in pico("doctor").err
+
+
+def test_a_laser_is_shut_though_the_journal_cannot_be_used(lit: Path, pico: Pico) -> None:
+    (lit / ".pico/benches/sim/journal.sqlite").write_bytes(b"no database" * 1000)
+    assert pico("apply", "--yes").code != 0
+    assert pico("laser", "disarm", "laser").code == 0 and not emits(lit)
+
+
+def test_a_table_of_emulated_devices_that_begins_anew_is_reported(lit: Path, pico: Pico) -> None:
+    place = BenchPlace(lit, "emulated")
+    with closing(Journal(JOURNAL.path(place.own))) as journal:
+        journal.begin_run("r1", "plan", "test", about={"environment": {"backend": "emulated"}})
+        assert lost_warning(place) == (), "nothing was moved"
+        reason = Reason(kind="changed")
+        journal.intend("r1/a/1", Operation(id="a", primitive="set", component="p1", reason=reason), 1)
+        journal.started("r1/a/1", None, 1)
+        journal.ended(OperationResult(key="r1/a/1", outcome="done"), 1)
+    (said,) = lost_warning(place)
+    assert said.severity == "warning" and str(WORLD.path(place.own)) in said.summary
+    assert "it begins anew" in said.summary and "every part stands at its home" in said.hint
+    assert str(WORLD.path(place.own)) in pico("doctor").err
+    WORLD.path(place.own).write_text("{}")
+    assert lost_warning(place) == ()
