@@ -112,9 +112,9 @@ def switch(raw: str, unit: str = "") -> Readout:
 
 def failure(raw: str) -> str:
     """Return the entry that a reply to `SYST:ERR?` holds, '' for an empty queue (error 0); raises ValueError for
-    what is no such reply."""
+    what is no such reply. `00` is none: its first digit may be the end of an earlier reply whose line was broken."""
     found = _ERROR.fullmatch(raw.strip(" \t\r\n"))
-    if found is None:
+    if found is None or re.fullmatch("0[0-9]+", found[1]):
         raise ValueError(f"{raw[:40]!r} is no entry of an error queue")
     return "" if int(found[1]) == 0 else raw.strip()
 

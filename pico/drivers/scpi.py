@@ -156,26 +156,25 @@ class SafetyInput(Spoken):
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Visa]) -> None:
         super().__init__(name, entry, bus)
-        self._count = -1
+        self._contact = Contact(entry)
         self._heard = float("-inf")
 
     async def read(self) -> SafetyState:
         try:
-            safe = await self._line.ask("tell its contact", self._contact, within=1.5)
+            safe = await self._line.ask("tell its contact", self._contact.closed, within=1.5)
         except PicoError:
             safe = None
         if safe is not None:
             self._heard = time.monotonic()
         return SafetyState(safe=safe, age=time.monotonic() - self._heard)
 
-    def _contact(self, visa: Visa) -> bool | None:
-        closed, count = contact(visa, self._entry)
-        fresh, self._count = count != self._count, count
-        return closed if fresh else None
-
 
 class Shutter(Spoken):
     """A shutter at a relay; whether it is open a contact of its own says, closed while the shutter is."""
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Visa]) -> None:
+        super().__init__(name, entry, bus)
+        self._contact = Contact(entry)
 
     async def open(self, wanted: bool) -> bool:
         """Switch the relay, and return what the sensor says then; raises PicoError where that is not as wanted."""
@@ -183,8 +182,10 @@ class Shutter(Spoken):
         def switch(visa: Visa) -> bool:
             visa.tell(f"OUTP {'ON' if wanted else 'OFF'},(@{self._entry.address['relay']})")
             ends = time.monotonic() + 0.5
-            while (is_open := not contact(visa, self._entry)[0]) != wanted and time.monotonic() < ends:
+            while (is_open := self._sensed(visa)) != wanted and time.monotonic() < ends:
                 time.sleep(0.01)
+            if is_open is None:
+                raise ValueError("the sensor of the shutter repeats an earlier answer")
             return is_open
 
         ask = self._line.move if wanted else self._line.ask
@@ -193,7 +194,11 @@ class Shutter(Spoken):
         return found
 
     async def is_open(self) -> bool | None:
-        return await self._line.ask("tell its sensor", lambda visa: not contact(visa, self._entry)[0])
+        return await self._line.ask("tell its sensor", self._sensed)
+
+    def _sensed(self, visa: Visa) -> bool | None:
+        closed = self._contact.closed(visa)
+        return None if closed is None else not closed
 
     async def stop(self) -> None:
         """Close it, before all else."""
@@ -209,10 +214,19 @@ class Lamp(Spoken):
         return on
 
 
-def contact(visa: Visa, entry: DeviceEntry) -> tuple[bool, int]:
-    """Return whether the contact of an entry is closed, and the count of the answer; raises ValueError."""
-    closed, _, count = visa.ask(f"INP? (@{entry.address['channel']})").partition(",")
-    return judging.switched(closed), judging.whole(count)
+class Contact:
+    """A contact of a box whose answers count on, so that an earlier answer is known as one."""
+
+    def __init__(self, entry: DeviceEntry) -> None:
+        self._channel, self._count = entry.address["channel"], -1
+
+    def closed(self, visa: Visa) -> bool | None:
+        """Return whether it is closed; None if the count is not above that of the answer before (a box that was
+        switched on anew counts from the start, and is believed from its second answer on). Raises ValueError."""
+        closed, _, said = visa.ask(f"INP? (@{self._channel})").partition(",")
+        count = judging.whole(said)
+        newer, self._count = count > self._count, count
+        return judging.switched(closed) if newer else None
 
 
 _CONTACTS = {

@@ -294,3 +294,20 @@ def test_a_picture_that_was_sent_before_is_none() -> None:
         served.close()
     whole = sum(b"abcd")
     assert found == [whole, whole, "stale", whole, "device-reply", whole]
+
+
+@pytest.mark.parametrize("kind", ["scpi.safety", "scpi.shutter"])
+def test_an_earlier_answer_of_a_contact_is_none(kind: str) -> None:
+    replies = {**METER, "INP? (@4)": "1,7"}
+    with scripted(Scripted(replies)) as address:
+
+        async def go(one: Any) -> list[Any]:
+            found: list[Any] = []
+            for said in ("1,7", "1,7", "1,6", "1,7", "0,8"):
+                replies["INP? (@4)"] = said
+                found.append((await one.read()).safe if kind == "scpi.safety" else await one.is_open())
+            return found
+
+        closed = asked(DeviceEntry(driver=kind, address={**address, "channel": 4, "relay": 1}), go)
+    wanted = [True, None, None, True, False]
+    assert closed == (wanted if kind == "scpi.safety" else [None if c is None else not c for c in wanted])

@@ -48,7 +48,7 @@ def test_entries_of_an_error_queue(reply: str, entry: str) -> None:
     assert judging.failure(reply) == entry
 
 
-@pytest.mark.parametrize("reply", ["0.0012", "", "No error", "1.2E-3"])
+@pytest.mark.parametrize("reply", ["0.0012", "", "No error", "1.2E-3", '00,"No error"', "00"])
 def test_what_is_no_entry_of_an_error_queue_is_told(reply: str) -> None:
     with pytest.raises(ValueError, match="no entry"):
         judging.failure(reply)
