@@ -112,8 +112,11 @@ class Door(socket.socket):
     def _look(self, loop: asyncio.AbstractEventLoop) -> None:
         """Close the connections that are late, and look again as long as there are any."""
         now = time.monotonic()
-        for connection in [c for c in self._visits.values() if c.visit.late(now)]:
-            self._dismiss(connection)
+        waited = 0.0 if self._looking is None else max(0.0, loop.time() - self._looking.when())
+        for connection in list(self._visits.values()):
+            connection.visit.since += waited  # while the loop was busy, nothing could be read
+            if connection.visit.late(now):
+                self._dismiss(connection)
         self._tell(now)
         more = self._visits or self._closed_ones
         self._looking = loop.call_later(_LOOK, self._look, loop) if more else None
