@@ -121,8 +121,17 @@ def test_a_lease_that_is_stolen_ends_the_run_safely_before_the_next_one_begins(
 
 
 def test_who_stopped_a_run_is_told_in_its_report(
-    coordinator: Served, edge: Connected, anna: Client, planned: tuple[Path, Plan]
+    coordinator: Served, edge: Connected, anna: Client, planned: tuple[Path, Plan], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    from pico.backends.sim.session import WorldSession
+
+    tell = WorldSession._tell
+
+    def telling(self: WorldSession, *what: object) -> None:
+        tell(self, *what)  # type: ignore[arg-type]
+        time.sleep(0.1)  # or it could be over before it is stopped
+
+    monkeypatch.setattr(WorldSession, "_tell", telling)
     begun(anna, planned[1])
     with client(coordinator, coordinator.person("vera", "viewer@shel"), "s3") as vera:
         vera.ask("halt")
