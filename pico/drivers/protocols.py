@@ -197,6 +197,20 @@ class Shutter(Instrument, Protocol):
     async def is_open(self) -> bool | None: ...
 
 
+@runtime_checkable
+class DeadMan(Protocol):
+    """A laser or shutter that ends its light by itself unless it is refreshed: the guard's own death ends light."""
+
+    @property
+    def dead_man(self) -> float | None:
+        """How long after the last refresh it ends its light [s]; None if it was not told to, or can't."""
+        ...
+
+    async def refresh(self) -> None:
+        """Keep it from ending its light for so long again; raises PicoError. It opens nothing."""
+        ...
+
+
 class Lamp(Instrument, Protocol):
     """A lamp of the room or the bench."""
 

@@ -147,12 +147,23 @@ def shut_plan(setup: Setup, seen: Observation, operation: Operation, able: Capab
     return _plan(setup, seen, operation, able.name, able.fidelity)
 
 
+def dark_plan(setup: Setup, seen: Observation, operations: Sequence[Operation], able: Capabilities, title: str) -> Plan:
+    """Return a plan that ended light beside any run, as the journal keeps it: it tidies up, and is nothing to undo."""
+    return _planned(setup, seen, operations, able.name, able.fidelity, title)
+
+
 def _plan(setup: Setup, seen: Observation, operation: Operation, backend: str, fidelity: str) -> Plan:
-    state = live_state(setup, seen).as_json()
     title = f"{operation.component} shut: {operation.reason.text}"
+    return _planned(setup, seen, [operation], backend, fidelity, title)
+
+
+def _planned(
+    setup: Setup, seen: Observation, operations: Sequence[Operation], backend: str, fidelity: str, title: str
+) -> Plan:  # fmt: skip
+    state = live_state(setup, seen).as_json()
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
-        base=Base(state=state), target=Target(title=title, cause="recover", state=state), operations=(operation,),
+        base=Base(state=state), target=Target(title=title, cause="recover", state=state), operations=tuple(operations),
     ).sealed()  # fmt: skip
 
 

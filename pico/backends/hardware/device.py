@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began, Capabilities
+from pico.backends.guard.note import STOPPED, notices
+from pico.backends.guard.note import read as read_note
+from pico.backends.guard.verdict import Trip
 from pico.backends.hardware.instruments import Instruments, unwired
+from pico.backends.hardware.lights import lasers_of
 from pico.backends.hardware.links import Links
 from pico.backends.hardware.measuring import Readers
 from pico.backends.hardware.pictures import alike, grayed
@@ -33,6 +37,7 @@ from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import MovePath
 from pico.places.bench import BenchPlace
+from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.interlocks import LAMP
 from pico.planning.routines import plugged_in
 from pico.twin.arms import TwinArm
@@ -41,6 +46,7 @@ from pico.vision.calibration import calibration_digest, known_arms, read_calibra
 from pico.vision.frame import TRIES, Frame
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
     from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
@@ -139,7 +145,14 @@ class HardwareDevice:
         known = await self._felt(bench, recall_hands(self.place))
         found = await asyncio.to_thread(self._seen, frames, known)
         self._shown.looked(found.observation)
+        self.links.lights().gates = self._gates(found.observation)
         return found
+
+    def _gates(self, seen: Observation) -> dict[str, str]:
+        """Return the shutter on the table that stands in the beam of each laser, as the bench was seen."""
+        found = {name: shutter_of(self.setup, seen, (), name) for name in lasers_of(self.setup)
+                 if "shutter" not in self.setup.type_of(name).tunables}  # fmt: skip
+        return {name: gate for name, gate in found.items() if gate}
 
     def _seen(self, frames: list[Frame], known: Observation) -> Look:
         """What frames show; those that are the same to the last pixel show the same."""
@@ -200,7 +213,8 @@ class HardwareDevice:
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
         found = replace(found, values={**self._settings.commanded(self.setup), **found.values})
-        found = replace(found, problems=(*found.problems, *self._told(bench, await self.most())))
+        told_of = (*notices(read_note(self.place)), *self._told(bench, await self.most()))
+        found = replace(found, problems=(*found.problems, *told_of))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip
@@ -262,6 +276,14 @@ class HardwareDevice:
             keep=self._settings.put, untried=self.links.untried(), most=most,
             require=require,
         )  # fmt: skip
+        session, lights = self._session, self.links.lights()
+        lights.session = lambda trip: self._heard(loop, session, trip)
+        lights.moving = session.moving
+
+    def _heard(self, loop: asyncio.AbstractEventLoop, session: HardwareSession, trip: Trip) -> None:
+        """Let who has the bench hear that the guard ends light; called in the guard's thread."""
+        if session is self._session and not loop.is_closed():
+            asyncio.run_coroutine_threadsafe(session.trip(trip), loop)
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute one operation and return when it has ended."""
@@ -284,15 +306,25 @@ class HardwareDevice:
             await self._session.halt()
 
     async def stop(self) -> None:
-        """Stop everything where it is; grippers hold what they hold."""
-        if self._session is not None:
-            await self._session.stop()
+        """Stop everything where it is; grippers hold what they hold, and light ends: whether or not something moves.
+        Raises PicoError if no device can be had at all."""
+        work = [] if self._session is None else [self._session.stop()]
+        await asyncio.gather(self.end_light(), *work)
+
+    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+        """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""
+        self.links.listen(heard)
+
+    async def end_light(self) -> Ended:
+        """End all light now, and return what became of each laser, see `pico.backends.device.LightGuarded`."""
+        return await self.links.lights().end("a person stopped the bench", STOPPED)
 
     async def leave(self) -> None:
         """Let others have the bench, once everything under way has ended."""
         if self._session is not None:
             await self._session.idle()
             self._session = None
+            self.links.lights().moving = tuple
 
     async def close(self) -> None:
         """Let go of the links to the instruments."""

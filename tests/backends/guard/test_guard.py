@@ -1,0 +1,126 @@
+"""The guard against boxes of switches at the wire: emission is measured at the emulated lasers."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from boxes import INPUTS, guarded, until
+
+from pico.backends.guard.note import Note, notices, read, watching, write
+
+BAR, LOST = 0.5, 1.0
+"""Within which light ends [s]: of an unsafe input, and of one whose link was lost."""
+
+
+@pytest.mark.parametrize("name", [name for name, kind in INPUTS.items() if kind != "curtain"])
+def test_an_unsafe_input_ends_the_light_of_every_laser_while_nothing_runs(tmp_path: Path, name: str) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.put(name, False)
+        rig.ends_within(BAR)
+        until(lambda: read(rig.place).ended is not None)
+        assert not rig.lasers.is_("laser_shutter") and not rig.lasers.is_("laser_head"), "both are switched"
+        said = notices(read(rig.place))
+        assert len(said) == 2 and all(name in one.summary and "was ended at" in one.summary for one in said)
+
+
+def test_a_link_that_falls_silent_ends_light(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.frozen = True
+        rig.ends_within(LOST)
+        until(lambda: read(rig.place).ended is not None)
+        assert "has not answered" in notices(read(rig.place))[0].summary
+
+
+def test_a_box_that_hangs_up_ends_light(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.served.close()
+        rig.ends_within(LOST)
+
+
+def test_what_could_not_be_closed_is_told_and_closed_once_it_can(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.lasers.frozen = True
+        until(lambda: read(rig.place).ended is not None, 6.0)
+        assert any("MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+        assert rig.lit() == {"laser": True, "bare": True}
+        rig.lasers.frozen = False
+        rig.ends_within(5.0)
+
+
+@pytest.mark.parametrize(
+    ("policy", "ends"), [(None, set()), ("3R", {"laser", "bare"}), ("3B", {"laser"}), ("4", set())]
+)
+def test_a_curtain_ends_light_only_of_the_classes_that_the_policy_names(
+    tmp_path: Path, policy: str | None, ends: set[str]
+) -> None:
+    with guarded(tmp_path, presence_ends=policy) as rig:  # laser may be set to class 3B, bare is of class 3R
+        rig.inputs.put("veil", False)
+        if ends:
+            rig.ends_within(BAR, *ends)
+        time.sleep(0.3)
+        assert {name for name, lit in rig.lit().items() if not lit} == ends
+
+
+def test_light_that_nothing_ends_stays_and_nothing_is_written_twice(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        assert rig.stays_lit()
+        watch = read(rig.place).watch
+        assert watch is not None and watch.lasers == ("bare", "laser") and notices(read(rig.place)) == ()
+        assert rig.stays_lit(0.2) and read(rig.place).watch == watch
+
+
+def test_light_let_out_anew_forgets_what_was_told_and_is_ended_again(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.put("lock", False)
+        rig.ends_within(BAR)
+        until(lambda: bool(notices(read(rig.place))) and read(rig.place).watch is None)
+        rig.inputs.put("lock", True)
+        rig.lasers.put("bare_head", True)
+        until(lambda: read(rig.place).watch is not None)
+        assert notices(read(rig.place)) == ()
+        rig.inputs.put("lock", False)
+        rig.ends_within(BAR)
+
+
+def test_inputs_are_not_asked_while_all_lasers_are_dark(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.lasers.put("bare_head", False)
+        rig.lasers.put("laser_shutter", False)
+        until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ())
+        rig.inputs.put("door_box", False)
+        time.sleep(0.3)
+        assert rig.lasers.is_("laser_head") and read(rig.place).ended is None, "behind its closed shutter it may be on"
+        rig.lasers.put("laser_shutter", True)
+        rig.ends_within(BAR)
+
+
+def test_a_stop_ends_light_without_any_device_but_lasers_and_shutters(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        rig.inputs.frozen = True
+        ended = asyncio.run(rig.lights.end("a person stopped the bench", "a stop"))
+        assert rig.lit() == {"laser": False, "bare": False}
+        assert {end.laser: end.is_dark for end in ended.ends} == {"laser": True, "bare": True, "second": False}
+        assert any("second MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+
+
+def test_a_guard_that_was_killed_is_told_by_who_comes_next(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        gone = replace(watching(("bare", "laser"), ("laser",)), pid=2**22 - 1)
+        write(rig.place, Note(watch=gone))
+        (said,) = notices(read(rig.place))
+        assert "was killed" in said.summary and "bare may have emitted unwatched" in said.summary
+        asyncio.run(rig.lights._bench.connect())
+        rig.lights.watch()
+        until(lambda: read(rig.place).watch is not None)
+        assert "was killed" in notices(read(rig.place))[0].summary, "it is told until light is let out anew"
+        rig.lasers.put("bare_head", False)
+        rig.lasers.put("laser_head", False)
+        until(lambda: read(rig.place).watch is None)
+        assert notices(read(rig.place)) != ()
+        rig.lasers.put("bare_head", True)
+        until(lambda: read(rig.place).watch is not None)
+        assert notices(read(rig.place)) == ()
