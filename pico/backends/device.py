@@ -76,6 +76,10 @@ class LightGuarded(Protocol):
         """Have `heard` called, in any thread, after light was ended, by the guard (with its trip) or by a stop."""
         ...
 
+    def dark_by_itself(self) -> frozenset[str]:
+        """Return the lasers whose light ends by itself once PICO is dead or frozen: they have a dead-man."""
+        ...
+
     async def end_light(self) -> Ended:
         """End all light now, for a person who asks for that, and return what became of each laser; needs no lease, and
         no device but those of lasers and shutters. Raises PicoError if these can't be had at all."""

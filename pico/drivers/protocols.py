@@ -184,7 +184,9 @@ class PowerMeter(Instrument, Protocol):
 class Laser(Instrument, Protocol):
     """A laser whose emission is commanded, and read back from what it reports of itself."""
 
-    async def emit(self, on: bool) -> bool: ...
+    async def emit(self, on: bool) -> bool:
+        """Switch it, and return whether it emits as it says then; off goes before all that waits for its link."""
+        ...
 
     async def emitting(self) -> bool | None: ...
 
@@ -192,7 +194,9 @@ class Laser(Instrument, Protocol):
 class Shutter(Instrument, Protocol):
     """A shutter; its state comes from a sensor of its own, never from the echo of a command."""
 
-    async def open(self, wanted: bool) -> bool: ...
+    async def open(self, wanted: bool) -> bool:
+        """Open or close it, and return whether it is open then; closing goes before all that waits for its link."""
+        ...
 
     async def is_open(self) -> bool | None: ...
 

@@ -8,9 +8,9 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.backends.device import Began, Capabilities, Commissioned, Device
+from pico.backends.device import Began, Capabilities, Commissioned, Device, LightGuarded
 from pico.backends.hardware.report import read
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, warning
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.edge import armings
 from pico.model.arming import Arming, LaserClass
 from pico.model.observation import Observation, live_state
@@ -27,6 +27,8 @@ from pico.policy import arming, commissioning
 if TYPE_CHECKING:
     from pico.edge.attempts import Executing
 
+DEAD_MAN = "dead-man"
+"""The code of what is said of a laser whose light nothing would end without PICO."""
 Looking = Callable[[], Awaitable[Observation]]
 
 
@@ -85,6 +87,31 @@ async def require_commissioned(setup: Setup, place: BenchPlace, device: Device, 
         raise PicoError(commissioning.refusal(able.name, given.laser, why), ExitCode.DENIED)
 
 
+def unended(setup: Setup, able: Capabilities, device: Device) -> frozenset[str]:
+    """Return the lasers whose light nothing ends once PICO is dead or frozen: no dead-man, and no interlock that is
+    wired past every computer; none on a bench where nothing is emitted."""
+    if not isinstance(device, LightGuarded) or arming.waived(setup, able.evidence):
+        return frozenset()
+    if setup.lab.policy.hard_wired_interlock:
+        return frozenset()
+    return frozenset(arming.lasers(setup)) - device.dark_by_itself()
+
+
+async def require_ended(setup: Setup, device: Device, given: Arming) -> None:
+    """Raise PicoError (exit code DENIED) for an arming above class 2 of a laser whose light nothing would end."""
+    able = await device.describe()
+    if above_class_2(given.laser_class) and given.laser in unended(setup, able, device):
+        name = given.laser
+        text = f"{name} is not armed for class {given.laser_class}: nothing would end its light if PICO were killed or "
+        detail = (
+            f"to wire: the doors and the emergency stop of the table in series, through the interlock input of {name} "
+        )
+        detail += "or the supply of its shutter, so that opening one ends its light with every computer switched off"
+        hint = "then say `policy: {hard_wired_interlock: true}` in lab.yaml; or give its shutter a dead-man, "
+        hint += "`settings: {watchdog: 1}` with the driver `switches.shutter`"
+        raise PicoError(error(DEAD_MAN, f"{text}this computer froze", detail=detail, hint=hint), ExitCode.DENIED)
+
+
 async def with_licences(
     setup: Setup, place: BenchPlace, able: Capabilities, device: Device, now: str, seen: Observation
 ) -> Observation:  # fmt: skip
@@ -100,6 +127,14 @@ async def with_licences(
     ):
         said = f"the bench is not commissioned: {why[0]}"
         found = {name: replace(one, laser_class="2", withheld=said) for name, one in found.items()}
+    bare = unended(setup, able, device)
+    without = "nothing would end its light if PICO were killed: it has no dead-man and no hard-wired interlock"
+    found = {
+        name: replace(one, laser_class="2", withheld=without)
+        if name in bare and one.by and above_class_2(one.laser_class)
+        else one
+        for name, one in found.items()
+    }
     return replace(seen, licences=found)
 
 

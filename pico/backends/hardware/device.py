@@ -14,7 +14,7 @@ from pico.backends.guard.note import STOPPED, notices
 from pico.backends.guard.note import read as read_note
 from pico.backends.guard.verdict import Trip
 from pico.backends.hardware.instruments import Instruments, unwired
-from pico.backends.hardware.lights import lasers_of
+from pico.backends.hardware.lights import Lights, closes_itself, lasers_of
 from pico.backends.hardware.links import Links
 from pico.backends.hardware.measuring import Readers
 from pico.backends.hardware.pictures import alike, grayed
@@ -314,6 +314,11 @@ class HardwareDevice:
     def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
         """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""
         self.links.listen(heard)
+
+    def dark_by_itself(self) -> frozenset[str]:
+        """Return the lasers that have a dead-man, see `pico.backends.device.LightGuarded`; asks no device."""
+        lights = Lights(self.setup, self.place, self.links.about()).lights()
+        return frozenset(light.laser for light in lights if closes_itself(light))
 
     async def end_light(self) -> Ended:
         """End all light now, and return what became of each laser, see `pico.backends.device.LightGuarded`."""

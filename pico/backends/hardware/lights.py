@@ -128,7 +128,7 @@ class Lights(Told):
         def changed(note: Note) -> Note:
             if not lasers:
                 return replace(note, watch=None)
-            itself = tuple(light.laser for light in self.lights() if light.laser in lasers and _closes_itself(light))
+            itself = tuple(light.laser for light in self.lights() if light.laser in lasers and closes_itself(light))
             watch = notes.watching(lasers, itself)
             return Note(watch=watch) if self._dark else replace(note, watch=watch)
 
@@ -148,6 +148,7 @@ class Lights(Told):
                 notes.write(self._place, after)
 
 
-def _closes_itself(light: Light) -> bool:
+def closes_itself(light: Light) -> bool:
+    """Return whether a dead-man ends the light of a laser once nothing refreshes it."""
     devices = (*light.shutters.values(), *((light.emission[1],) if light.emission else ()))
     return any(isinstance(one, DeadMan) and one.dead_man is not None for one in devices)

@@ -48,7 +48,7 @@ class Licensing:
     async def arm(self, arming: Arming) -> Arming:
         """Keep an arming, see `pico.edge.contract.EdgeLicensing`."""
         from pico.edge.armings import keep
-        from pico.edge.emission import require_commissioned
+        from pico.edge.emission import require_commissioned, require_ended
         from pico.policy.arming import refusal
 
         own = self._apparatus
@@ -57,6 +57,7 @@ class Licensing:
         if wrong := refusal(own.setup, given, own.now()):
             raise PicoError(wrong, ExitCode.DENIED)
         await require_commissioned(own.setup, own.place, own.device, own.now(), given)
+        await require_ended(own.setup, own.device, given)
         keep(own.place, given)
         return given
 

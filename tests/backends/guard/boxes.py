@@ -18,8 +18,7 @@ from pico.backends.hardware.lights import Lights
 from pico.backends.hardware.settings import Settings
 from pico.drivers.registry import Buses
 from pico.emulators.behind import Alone
-from pico.emulators.serving import TcpServed
-from pico.emulators.switches import Switches
+from pico.emulators.switches import DeadMen, Switches, WatchedBox
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, SafetyEntry, Wiring
 from pico.places.bench import BenchPlace
@@ -35,26 +34,27 @@ class Box:
     def __init__(self, names: dict[str, tuple[str, Any]]) -> None:
         self.behind = {name: Alone({PROPERTY[kind]: first}) for name, (kind, first) in names.items()}
         known = {name: (PROPERTY[kind], self.behind[name]) for name, (kind, _) in names.items()}
-        box, switches = self, Switches("1", known)
-        self.frozen = False
+        box = self
+        dead_men = DeadMen(known)
+        self.frozen = self.forgets_dead_men = False
 
         class Heard:
             """A conversation that stands still while the box is frozen."""
 
             def __init__(self) -> None:
-                self.link, self.waits = Switches("1", known), b""
+                self.link, self.waits = Switches("1", known, dead_men), b""
 
             def heard(self, data: bytes) -> bytes:
-                self.waits += data
+                self.waits += data.replace(b"keep", b"hold") if box.forgets_dead_men else data
                 return self.due()
 
             def due(self) -> bytes:
                 if box.frozen:
                     return b""
                 said, self.waits = self.waits, b""
-                return (self.link.heard(said) if said else b"") + switches.due()
+                return self.link.heard(said) if said else b""
 
-        self.served = TcpServed(Heard)
+        self.served = WatchedBox(Heard, dead_men)
 
     def is_(self, name: str) -> Any:
         return next(iter(self.behind[name]._values.values()))

@@ -11,6 +11,7 @@ import pytest
 from boxes import INPUTS, guarded, until
 
 from pico.backends.guard.note import Note, notices, read, watching, write
+from pico.diagnostics import PicoError
 
 BAR, LOST = 0.5, 1.0
 """Within which light ends [s]: of an unsafe input, and of one whose link was lost."""
@@ -124,3 +125,24 @@ def test_a_guard_that_was_killed_is_told_by_who_comes_next(tmp_path: Path) -> No
         rig.lasers.put("bare_head", True)
         until(lambda: read(rig.place).watch is not None)
         assert notices(read(rig.place)) == ()
+
+
+def test_a_dead_man_stays_open_while_it_is_guarded_and_closes_once_the_guard_is_gone(tmp_path: Path) -> None:
+    with guarded(tmp_path, watchdog=0.5) as rig:
+        assert asyncio.run(rig.lights.shutters["laser.shutter"].open(True))
+        assert rig.stays_lit(1.2)
+        watch = read(rig.place).watch
+        assert watch is not None and watch.closes_itself == ("laser",)
+        assert rig.lights.guard is not None
+        rig.lights.guard.close()
+        assert rig.ends_within(1.0, "laser") > 0.2, "by the box alone"
+        assert rig.lasers.is_("laser_head") and rig.lasers.is_("bare_head"), "what has no dead-man stays on"
+
+
+def test_a_box_without_a_dead_man_lets_no_light_out_that_was_to_have_one(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False, watchdog=0.5) as rig:
+        rig.lasers.put("laser_shutter", False)
+        rig.lasers.forgets_dead_men = True
+        with pytest.raises(PicoError, match="has no dead-man"):
+            asyncio.run(rig.lights.shutters["laser.shutter"].open(True))
+        assert not rig.lasers.is_("laser_shutter")
