@@ -76,6 +76,18 @@ class LightGuarded(Protocol):
         """Have `heard` called, in any thread, after light was ended, by the guard (with its trip) or by a stop."""
         ...
 
+    async def guarded(self) -> None:
+        """Connect to the devices, and guard their light from now on; raises PicoError for what does not answer."""
+        ...
+
+    def guards(self) -> bool:
+        """Return whether the bench has a laser that a device could make dark; asks no device."""
+        ...
+
+    def may_emit(self) -> bool:
+        """Return whether a laser may emit that this process guards: it is connected, and not all are proven dark."""
+        ...
+
     def dark_by_itself(self) -> frozenset[str]:
         """Return the lasers whose light ends by itself once PICO is dead or frozen: they have a dead-man."""
         ...

@@ -100,6 +100,11 @@ class Guard:
         """The lasers that may emit, as far as was heard last."""
         return self._lit
 
+    @property
+    def is_dark(self) -> bool:
+        """Whether every laser was heard to be dark."""
+        return self._judged and not self._lit
+
     async def _run(self) -> None:
         self._loop, self._closing = asyncio.get_running_loop(), asyncio.Event()
         self._begun.set()

@@ -315,6 +315,18 @@ class HardwareDevice:
         """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""
         self.links.listen(heard)
 
+    async def guarded(self) -> None:
+        """Connect to the devices, and guard their light from now on."""
+        await self.links.instruments()
+
+    def guards(self) -> bool:
+        """Return whether the bench has a laser that a device could make dark; asks no device."""
+        return bool(Lights(self.setup, self.place, self.links.about()).lights())
+
+    def may_emit(self) -> bool:
+        """Return whether a laser may emit that this process guards, see `pico.backends.device.LightGuarded`."""
+        return self.links.connected is not None and not self.links.lights().is_dark
+
     def dark_by_itself(self) -> frozenset[str]:
         """Return the lasers that have a dead-man, see `pico.backends.device.LightGuarded`; asks no device."""
         lights = Lights(self.setup, self.place, self.links.about()).lights()

@@ -64,6 +64,11 @@ class Lights(Told):
         """The guard at work, None if the bench has no laser that a device could shut."""
         return self._guard
 
+    @property
+    def is_dark(self) -> bool:
+        """Whether all lasers are proven dark that a device could make dark."""
+        return not self.lights() or (self._guard is not None and self._guard.is_dark)
+
     def watch(self) -> None:
         """Start the guard, once the devices are connected; a bench without lasers needs none."""
         lights = self.lights()

@@ -241,6 +241,11 @@ class LocalEdge(Edge):
         device = self.apparatus.device
         return await device.end_light() if isinstance(device, LightGuarded) else None
 
+    def leaves_light(self) -> bool:
+        """Return whether this process has the links of lasers of which one may emit: its guard ends with it."""
+        device = self.apparatus.device
+        return isinstance(device, LightGuarded) and device.may_emit()
+
     async def end_of(self, holder: str) -> None:
         """Bring what a holder has under way to its safe end, and take the bench back from it."""
         await self.custody.end_of(holder)
