@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,10 +11,26 @@ from pico.diagnostics import PicoError
 from pico.drivers.protocols import SafetyState
 from pico.model.wiring import SafetyEntry
 
+HELD = 0.2
+"""How much of a pause of its own the guard counts [s]: more than it takes between two looks."""
 SILENT = 0.6
 """How long a laser or a shutter may leave the guard without an answer while light may be out [s]."""
-PARDON = 2.0
-"""A process that was starved or frozen itself blames no device for that, for so long at most [s]."""
+
+
+class Awake:
+    """A clock that counts only the time in which the guard itself was running: a process that was starved or frozen
+    blames no device for that. It is asked all the time; a pause counts as HELD at most, so that a lost link is noticed
+    also while the process is starved again and again."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock, self._last, self._now = clock, clock(), 0.0
+
+    def now(self) -> float:
+        """Return the time [s]."""
+        at = self._clock()
+        self._now += min(at - self._last, HELD)
+        self._last = at
+        return self._now
 
 
 def unsafe(entry: SafetyEntry, state: SafetyState) -> str:
@@ -38,8 +54,8 @@ class Heard:
 
 @dataclass
 class Hearing:
-    """The answers of all devices of a guard, by name or address; times by one monotonic clock [s]. `since`: from when
-    on answers are due, because light may be out, the guard was starved itself, or it has only begun."""
+    """The answers of all devices of a guard, by name or address; times by the guard's `Awake` clock [s]. `since`: from when
+    on answers are due, because light may be out, or the guard has only begun."""
 
     since: float
     heard: dict[str, Heard] = field(default_factory=dict)
@@ -57,12 +73,10 @@ class Hearing:
     def silence(self, name: str, now: float, limit: float) -> str:
         """Return why a device counts as silent, '' if it answered within `limit` [s]."""
         known = self.heard.get(name) or Heard()
-        if known.at is not None and now - known.at <= limit:
+        last = self.since if known.at is None else max(known.at, self.since)
+        if now - last <= limit:
             return ""
-        due = self.since if known.at is None else max(known.at, min(self.since, known.at + PARDON))
-        if now - due <= limit:
-            return ""
-        age = f"has not answered for {now - due:.1f} s"
+        age = f"has not answered for {now - last:.1f} s"
         return f"{age}: {known.wrong}" if known.wrong else age
 
     def input(self, name: str, entry: SafetyEntry, now: float) -> InputState:

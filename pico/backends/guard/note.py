@@ -4,7 +4,7 @@ why, and where a guard was killed or frozen while a laser emitted. Whoever opens
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -87,8 +87,10 @@ def notices(note: Note) -> tuple[Diagnostic, ...]:
     """Return what a person must know of the guard, the most urgent first; nothing while all is as it should be."""
     found = list[Diagnostic]()
     if note.ended is not None:
-        ends = sorted(note.ended.ends, key=lambda end: end.is_dark)
-        found += [said(note.ended, one) for one in ends if not one.is_dark or note.ended.by == GUARDED]
+        found += [_left_lit(note.ended, one) for one in note.ended.ends if not one.is_dark]
+        dark = [one for one in note.ended.ends if one.is_dark]
+        if dark and note.ended.by == GUARDED:
+            found.append(_dark(note.ended, dark))
     if note.killed is not None:
         found.append(_killed(note.killed))
     if note.frozen is not None:
@@ -100,14 +102,17 @@ def notices(note: Note) -> tuple[Diagnostic, ...]:
     return tuple(found)
 
 
-def said(ended: Ended, one: LightEnd) -> Diagnostic:
-    """Return what is said of one laser whose light was ended."""
+def _dark(ended: Ended, ends: Sequence[LightEnd]) -> Diagnostic:
+    names = ", ".join(one.laser for one in ends)
+    closed = ", ".join(c.address for one in ends for c in one.closings if c.dark)
+    wrong = "; ".join(one.wrong for one in ends if one.wrong)
+    text = f"guard: light of {names} was ended at {_local(ended.at)} because {ended.why}"
+    detail = f"dark now: {closed}" + (f"; not reached: {wrong}" if wrong else "")
+    return warning(CODE, text, detail=detail, hint="make the table safe, then let light out anew")
+
+
+def _left_lit(ended: Ended, one: LightEnd) -> Diagnostic:
     who = "guard" if ended.by == GUARDED else "stop"
-    if one.is_dark:
-        text = f"{who}: light of {one.laser} was ended at {_local(ended.at)} because {ended.why}"
-        closed = ", ".join(c.address for c in one.closings if c.dark)
-        detail = f"dark now: {closed}" + (f"; not reached: {one.wrong}" if one.wrong else "")
-        return warning(CODE, text, detail=detail, hint="make the table safe, then let light out anew")
     why = one.wrong or "no device of this bench closes a shutter of it or switches it off"
     text = (
         f"{who}: {one.laser} MAY STILL EMIT: at {_local(ended.at)} its light was to end because {ended.why}, and could "

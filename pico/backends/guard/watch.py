@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pico.backends.guard.ending import Light, LightEnd, end_light
-from pico.backends.guard.hearing import Hearing
+from pico.backends.guard.hearing import Awake, Hearing
 from pico.backends.guard.verdict import LaserState, Trip, verdict
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import Arm, DeadMan, Laser, SafetyInput, Shutter
@@ -30,10 +30,10 @@ ASKING = 0.5
 """How long one question may take [s]; the next one is asked then."""
 AGAIN = 0.5
 """Seconds after which light that could not be ended is tried again."""
-STARVED = 0.3
-"""The guard notices that it was not running itself when a pause of EVERY took so long [s]."""
 FROZE = 1.0
 """A pause of EVERY that took so long is told: light was unwatched meanwhile [s]."""
+A_DAY = 86400.0
+"""A pause that is longer by the wall's clock is one that somebody set [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,8 +71,8 @@ class Guard:
     """Guards the lasers of one bench from `start` to `close`."""
 
     def __init__(self, watched: Watched, told: Told, clock: Callable[[], float] = time.monotonic) -> None:
-        self._watched, self._told, self._clock = watched, told, clock
-        self._hearing = Hearing(since=clock())
+        self._watched, self._told, self._wall, self._clock = watched, told, clock, Awake(clock).now
+        self._hearing = Hearing(since=self._clock())
         self._loop: asyncio.AbstractEventLoop | None = None
         self._closing: asyncio.Event | None = None
         self._thread = threading.Thread(target=lambda: asyncio.run(self._run()), daemon=True, name="pico guard")
@@ -152,16 +152,16 @@ class Guard:
             await asyncio.sleep(min(within / 4, EVERY * 2))
 
     async def _tick(self) -> None:
-        """Notice that this process itself was starved or frozen: no device is to blame for its own silence."""
-        last, wall = self._clock(), time.time()
+        """Notice that this process itself stood still while light might be out, by the clock that stands still with it
+        or by the wall's, and judge though no device answers."""
+        last = self._wall(), time.time()
         while True:
             await asyncio.sleep(EVERY)
-            now, then = self._clock(), time.time()
-            if now - last > STARVED:
-                self._hearing.since = now
-            if self._lit and max(now - last, min(then - wall, 1e6)) > FROZE:
-                self._told.froze(max(now - last, then - wall), self._lit)
-            last, wall = now, then
+            now = self._wall(), time.time()
+            pause = max(one - other for one, other in zip(now, last, strict=True))
+            if self._lit and FROZE < pause < A_DAY:
+                self._told.froze(pause, self._lit)
+            last = now
             self._judge()
 
     # judging and acting

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 from collections.abc import Callable, Mapping
 from contextlib import suppress
@@ -103,10 +104,13 @@ class Lights(Told):
         ends += [LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known]
         ended = Ended(at=clock.now(), why=why, by=by, ends=tuple(one for one in ends if one.laser))
         if ended.ends:
-            self._keep(ended)
-            if self.listening is not None:
-                self.listening(ended, None)
+            await asyncio.to_thread(self._tell, ended, None)
         return ended
+
+    def _tell(self, ended: Ended, trip: Trip | None) -> None:
+        self._kept(lambda note: replace(note, ended=ended))
+        if self.listening is not None:
+            self.listening(ended, trip)
 
     def _loose(self) -> tuple[Light, ...]:
         used = {address for light in self.lights() for address in light.shutters}
@@ -125,9 +129,7 @@ class Lights(Told):
         if outcome == self._outcome and not all(end.is_dark for end in ends):
             return  # it was tried again, in vain: that is told already
         self._outcome = outcome
-        self._keep(ended)
-        if self.listening is not None:
-            self.listening(ended, trip)
+        self._tell(ended, trip)
 
     def lit(self, lasers: tuple[str, ...]) -> None:
         def changed(note: Note) -> Note:
@@ -142,9 +144,6 @@ class Lights(Told):
 
     def froze(self, seconds: float, lasers: tuple[str, ...]) -> None:
         self._kept(lambda note: replace(note, frozen=Frozen(until=clock.now(), seconds=seconds, lasers=lasers)))
-
-    def _keep(self, ended: Ended) -> None:
-        self._kept(lambda note: replace(note, ended=ended))
 
     def _kept(self, change: Callable[[Note], Note]) -> None:
         with self._lock, suppress(PicoError):  # a full disk keeps no light on

@@ -87,9 +87,10 @@ class Rig:
             time.sleep(0.005)
         return time.monotonic() - began
 
-    def stays_lit(self, seconds: float = 0.5) -> bool:
+    def stays_lit(self, seconds: float = 0.5, *names: str) -> bool:
+        """Return whether these lasers, or all, emit after a while [s]."""
         time.sleep(seconds)
-        return all(self.lit().values())
+        return all(self.lit()[name] for name in names or ("laser", "bare"))
 
 
 def entry(box: Box, kind: str, name: str, of: str | None = None, **settings: Any) -> DeviceEntry:
