@@ -49,6 +49,12 @@ GUARD = StateFile(
     "the process that has the links of the bench", "why light was ended last, and whether a guard was killed", "",
     Format("pico.guard"),
 )  # fmt: skip
+TABLE_LOCK = StateFile(
+    BENCH + "table-lock.json", "safety", "which person at the table locked the bench, since when and why",
+    "`pico lease lock`", "the lock: remote and unattended work is let in again",
+    "look whether somebody works at the table; then `rm {path}`, and `pico lease lock` locks it anew",
+    Format("pico.table-lock"),
+)  # fmt: skip
 LOCK = StateFile(
     BENCH + "lock", "safety", "the kernel's lock of the bench, and the last token that was given out",
     "the process that takes the bench",
@@ -283,7 +289,8 @@ GIT_MESSAGE = StateFile(
 )  # fmt: skip
 
 ALL = (
-    DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, GUARD, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB, MORNINGS,
+    DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, GUARD, TABLE_LOCK, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB,
+    MORNINGS,
     RECIPE_LOG, RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
     RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,

@@ -21,7 +21,7 @@ from pico.optics.audit.lasers import laser_class
 from pico.optics.audit.limits import above_class_2
 from pico.places.bench import BenchPlace
 from pico.planning.checks.beams import shutter_of
-from pico.planning.checks.emission import above, lets_out, licensed, may_shine, refused, uncovers, why_not
+from pico.planning.checks.emission import above, is_dark, lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming, commissioning
 
 if TYPE_CHECKING:
@@ -38,12 +38,16 @@ class Guarded:
 
     def __init__(
         self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool],
-        most: Callable[[], LaserClass | None],
+        most: Callable[[], LaserClass | None], refused_by: Callable[[], Diagnostic | None] = lambda: None,
     ) -> None:  # fmt: skip
+        """`refused_by`: why nothing but ending light is let through now."""
         self._setup, self._inner, self._look, self._bare, self._most = setup, inner, look, bare, most
+        self._refused_by = refused_by
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that lets light out and must not fails, and nothing moves."""
+        if not _darkens(operation) and (why := self._refused_by()) is not None:
+            return OperationResult(key=key, outcome="failed", error=why)
         if not (lets_out(self._setup, operation) or uncovers(self._setup, operation)):
             return await self._inner.execute(operation, key, began)
         seen = await self._look()
@@ -55,6 +59,11 @@ class Guarded:
         if wrong:
             return OperationResult(key=key, outcome="failed", error=wrong[0], ended=seen.time)
         return await self._inner.execute(operation, key, began)
+
+
+def _darkens(operation: Operation) -> bool:
+    said = operation.arguments
+    return operation.primitive == "set" and is_dark(str(said.get("tunable")), said.get("to"))
 
 
 def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[Diagnostic]:

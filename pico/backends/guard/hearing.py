@@ -54,8 +54,8 @@ class Heard:
 
 @dataclass
 class Hearing:
-    """The answers of all devices of a guard, by name or address; times by the guard's `Awake` clock [s]. `since`: from when
-    on answers are due, because light may be out, or the guard has only begun."""
+    """The answers of all devices of a guard, by name or address; times by the guard's `Awake` clock [s]. `since`: from
+    when on answers are due, because light may be out, or the guard has only begun."""
 
     since: float
     heard: dict[str, Heard] = field(default_factory=dict)
