@@ -30,6 +30,22 @@ from pico.emulators import switches  # noqa: E402
 from pico.manifest.load import load_folder  # noqa: E402
 from pico.places.bench import BenchPlace  # noqa: E402
 
+
+class Plain(yaml.SafeDumper):
+    """Writes every value out: a manifest has no anchors."""
+
+    def ignore_aliases(self, data: Any) -> bool:
+        return True
+
+
+def dumped(document: Any) -> str:
+    """Return a document as YAML."""
+    return str(yaml.dump(document, Dumper=Plain, sort_keys=False))
+
+
+GOALS = {"bright": {"maximize": "camera.peak", "tunables": {"camera.exposure": [0.02, 20]},
+                    "budget": {"measurements": 60, "seconds": 60}}}  # fmt: skip
+"""What the camera in the beam can be optimized for."""
 LIGHT, INPUTS = 4000, 4001
 """The ports of the box of lasers and shutters, and of that of safety inputs, as the lab has them."""
 KINDS = {"door_box": "door", "lock": "interlock", "estop": "emergency_stop", "veil": "curtain"}
@@ -45,7 +61,7 @@ def laser_type(name: str, *, shutter: bool) -> str:
     document["tunables"]["emission"]["settle"] = 50
     if not shutter:
         del document["tunables"]["shutter"]
-    return str(yaml.safe_dump(document, sort_keys=False))
+    return dumped(document)
 
 
 def make_lab(folder: Path, watchdog: float | None) -> None:
@@ -54,16 +70,17 @@ def make_lab(folder: Path, watchdog: float | None) -> None:
     lab = yaml.safe_load((ROOT / "labs" / "minimal" / "lab.yaml").read_text())
     lab["cameras"] = {name: {**lab["cameras"][name], "pixels": [1224, 1024]} for name in ("left", "right")}
     lab["policy"] = {"presence_ends": "2", "open_beam": True}
+    lab["goals"] = GOALS
     lab["inventory"]["laser"]["type"] = "weak_laser"
     lab["inventory"]["bare"] = {"type": "bare_laser", "pose": {"x": 200, "y": 600, "yaw": 0}}
-    (folder / "lab.yaml").write_text(yaml.safe_dump(lab, sort_keys=False))
+    (folder / "lab.yaml").write_text(dumped(lab))
     (folder / "weak_laser.yaml").write_text(laser_type("weak", shutter=True))
     (folder / "bare_laser.yaml").write_text(laser_type("bare", shutter=False))
     (folder / "state").mkdir(exist_ok=True)
     shutil.copy(ROOT / "labs" / "minimal" / "state" / "table.yaml", folder / "state")
     state = yaml.safe_load((folder / "state" / "table.yaml").read_text())
     state["components"]["bare"] = {"emission": True}
-    (folder / "state" / "table.yaml").write_text(yaml.safe_dump(state, sort_keys=False))
+    (folder / "state" / "table.yaml").write_text(dumped(state))
 
     def box(port: int, name: str) -> dict[str, Any]:
         return {"host": "192.0.2.20", "port": port, "name": name}
@@ -85,7 +102,7 @@ def make_lab(folder: Path, watchdog: float | None) -> None:
         "apiVersion": "pico/v1", "kind": "Devices", "metadata": {"lab": "minimal"}, "devices": devices,
         "safety_inputs": {name: {"kind": kind, "device": name} for name, kind in KINDS.items()},
     }  # fmt: skip
-    (folder / "devices.yaml").write_text(yaml.safe_dump(document, sort_keys=False))
+    (folder / "devices.yaml").write_text(dumped(document))
 
 
 class World:
@@ -102,7 +119,7 @@ class World:
             entry = self.bench.entries[name]
             said["address"], said["identity"] = dict(entry.address), dict(entry.identity)
             said["settings"] = dict(entry.settings)
-        (folder / "devices.yaml").write_text(yaml.safe_dump(document, sort_keys=False))
+        (folder / "devices.yaml").write_text(dumped(document))
         ports = {name: int(self.bench.entries[name].address["port"]) for name in ("laser_head", "door_box")}
         self.ports = {"light": ports["laser_head"], "inputs": ports["door_box"]}
         self.frozen = set[str]()
