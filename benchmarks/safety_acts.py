@@ -6,7 +6,6 @@ from __future__ import annotations
 import itertools
 import sys
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -55,13 +54,6 @@ class Act:
             goals = self.bench.goals
             self.run(goals.plan(goals.chosen(("bright",))), "operation_progress")
 
-    def teleoperating(self) -> None:
-        """Steer the lens in the hand."""
-        with self.bench.teleop("lens", "pose") as jog:
-            self.there()
-            for step in itertools.cycle((0.2, -0.2)):
-                jog.step("x", step)
-
     def unattended(self) -> None:
         """Measure where nobody is there, held to the terms of a recipe."""
         terms = Terms(
@@ -73,9 +65,12 @@ class Act:
 
 def main(lab: str, state: str) -> None:
     """Keep a bench in a state until something ends that, or this process."""
-    with Bench.open(Path(lab), backend="hardware") as bench, suppress(PicoError):
+    with Bench.open(Path(lab), backend="hardware") as bench:
         act: Callable[[], None] = getattr(Act(bench), state)
-        act()
+        try:
+            act()
+        except PicoError as exc:
+            print(exc, file=sys.stderr)
 
 
 if __name__ == "__main__":

@@ -33,6 +33,7 @@ sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 from pico.backends.guard.note import notices, read  # noqa: E402
 from pico.base.state_files import EDGE  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
+from pico.diagnostics import PicoError  # noqa: E402
 from pico.places.bench import BenchPlace  # noqa: E402
 
 FAULTS = {
@@ -40,7 +41,8 @@ FAULTS = {
     "killed PICO": "door_box", "frozen host": "", "killed guard": "",
 }  # fmt: skip
 """Each fault with the safety input that is pulled in it. Once PICO is killed, the client that is, a door opens."""
-STATES = ("idle", "measuring", "moving", "optimizing", "teleoperating", "unattended")
+STATES = ("idle", "measuring", "moving", "optimizing", "unattended")
+"""What goes on. No driver of an arm makes the small steps of a teleoperation yet: a real bench is not teleoperated."""
 LASERS = {"laser": "with shutter", "bare": "without shutter"}
 WATCHDOG = 1.0
 """The dead-man of shutters and lasers [s]."""
@@ -108,6 +110,7 @@ class Chain:
     def light(self) -> None:
         """Let both lasers emit, as a person does."""
         with Bench.open(self.lab, backend="hardware") as bench:
+            bench.wait_until_free(60)  # the edge may tidy up what an unattended run left
             for name, tunable, value in (("laser", "emission", "true"), ("laser", "shutter", "open"),
                                          ("bare", "emission", "true")):  # fmt: skip
                 report = bench.apply(bench.single(name, "set", **{tunable: value}))
@@ -177,10 +180,10 @@ class Chain:
             self.ask("pull", name, False)
         until = time.time() + 60
         with Bench.open(self.lab, backend="hardware") as bench:  # what was under way comes to its end
-            while bench.wait(bench.edge.holder()) is not None and time.time() < until:
-                time.sleep(0.1)
+            with suppress(PicoError):
+                bench.wait_until_free(until - time.time())
             bench.wait(bench.edge.end_light())
-            with suppress(Exception):
+            with suppress(PicoError):
                 bench.recovery.settle()
 
     def close(self) -> None:

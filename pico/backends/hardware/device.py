@@ -274,7 +274,7 @@ class HardwareDevice:
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.place.root, bench).image,
             keep=self._settings.put, untried=self.links.untried(), most=most,
-            require=require,
+            require=require, darken=self.links.lights().tripped,
         )  # fmt: skip
         session, lights = self._session, self.links.lights()
         lights.session = lambda trip: self._heard(loop, session, trip)

@@ -112,6 +112,11 @@ class Lights(Told):
         if self.listening is not None:
             self.listening(ended, trip)
 
+    async def tripped(self, why: str) -> None:
+        """Keep that an operation ended light because of `why`, if a laser was lit."""
+        if self._guard is not None and self._guard.lit:
+            await self.end(why, notes.GUARDED)
+
     def _loose(self) -> tuple[Light, ...]:
         used = {address for light in self.lights() for address in light.shutters}
         rest = {address: one for address, one in self.shutters.items() if address not in used}

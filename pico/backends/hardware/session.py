@@ -49,7 +49,8 @@ class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
     `now`: the bench's clock [s]; `keep`: keeps what was commanded and nobody reads, None where nobody knows it any
     more; `untried`: robots whose driver was never tried on a device; `most`: the greatest speed of tools [mm/s], where
-    a person may be near; `require`: see `pico.backends.device.Device.take`."""
+    a person may be near; `require`: see `pico.backends.device.Device.take`; `darken` ends light beside that, and keeps
+    why."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
@@ -57,11 +58,12 @@ class HardwareSession:
         measure: Measuring, image: Callable[[str], Awaitable[Reading]], keep: Callable[[str, Value | None], None],
         untried: frozenset[str] = frozenset(),
         most: float | None = None, require: Callable[[], None] = lambda: None,
+        darken: Callable[[str], Awaitable[object]] | None = None,
     ) -> None:  # fmt: skip
         self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
         self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
         self._keep, self._untried, self._moved, self._most = keep, untried, set[str](), most
-        self._require_lease = require
+        self._require_lease, self._darken = require, darken
         self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
@@ -121,8 +123,8 @@ class HardwareSession:
             await asyncio.wait([acting, watching], return_when=asyncio.FIRST_COMPLETED)
             if not acting.done() and watching.done():
                 self._tripped = watching.result()
-                await self._halt_all()
-                await self._shut()
+                darken = [] if self._darken is None else [self._darken(self._tripped.summary)]
+                await asyncio.gather(self._halt_all(), self._shut(), *darken)
                 try:
                     return await acting
                 finally:
