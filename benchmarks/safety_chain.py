@@ -34,6 +34,7 @@ from pico.backends.guard.note import notices, read  # noqa: E402
 from pico.base.state_files import EDGE  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.diagnostics import PicoError  # noqa: E402
+from pico.drivers.registry import driver, known  # noqa: E402
 from pico.places.bench import BenchPlace  # noqa: E402
 
 FAULTS = {
@@ -199,16 +200,17 @@ class Chain:
 
 
 def table() -> str:
-    """Return the table of the docs, as Markdown."""
-    lines = ["| fault | state | laser with shutter | laser without shutter |", "|---|---|---|---|"]
-    for fault, state in product(FAULTS, STATES):
+    """Return what docs/how-to/laser-safety.md says of each cell, as Markdown."""
+    lines = [f"| fault | laser | {' | '.join(STATES)} |", f"|---|---|{'---|' * len(STATES)}"]
+    for fault, laser in product(FAULTS, LASERS.values()):
         sure, bare = bar(fault, dead_man=True), bar(fault, dead_man=False)
-        said = (
-            f"{sure:g} s"
-            if bare is not None
-            else f"{sure:g} s with a dead-man of {WATCHDOG:g} s; **can stay on** without"
-        )
-        lines.append(f"| {fault} | {state} | {said} | {said} |")
+        said = f"{sure:g} s" if bare is not None else f"{sure:g} s; **stays on**"
+        lines.append(f"| {fault} | {laser} | {' | '.join([said] * len(STATES))} |")
+    can, cannot = list[str](), list[str]()
+    for name in sorted(known()):
+        if driver(name).kind in ("laser", "shutter"):
+            (can if "watchdog" in (driver(name).settings or {}) else cannot).append(f"`{name}`")
+    lines += ["", f"Drivers with a dead-man: {', '.join(can)}. Without: {', '.join(cannot)}."]
     return "\n".join(lines)
 
 
