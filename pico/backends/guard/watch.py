@@ -100,6 +100,12 @@ class Guard:
         """The lasers that may emit, as far as was heard last."""
         return self._lit
 
+    def heard(self) -> dict[str, bool]:
+        """Return what lasers and shutters said last, by address: whether each emits, or is open; none if unknown."""
+        own = self._watched
+        known = {address: self._hearing.heard.get(address) for address in (*own.emissions, *own.shutters)}
+        return {a: one.value for a, one in known.items() if one is not None and isinstance(one.value, bool)}
+
     @property
     def is_dark(self) -> bool:
         """Whether every laser was heard to be dark."""

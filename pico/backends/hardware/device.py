@@ -28,7 +28,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
 from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
 from pico.model.measurement import Measurement
-from pico.model.observation import Observation
+from pico.model.observation import Observation, with_value
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import as_json
@@ -119,7 +119,13 @@ class HardwareDevice:
     async def moment(self) -> Moment:
         """Return the bench as it is known without looking, arms as they report themselves where the links are open."""
         carried = self._session.carried() if self._session is not None else {}
-        return await self._shown.moment(self.links.now(), self.links.connected, self.arms(), carried)
+        found = await self._shown.moment(self.links.now(), self.links.connected, self.arms(), carried)
+        lit = self.links.lights().values() if self.links.connected is not None else {}
+        seen = found.seen
+        for address, value in lit.items():  # the guard asks lasers and shutters all the time
+            name, _, tunable = address.partition(".")
+            seen = with_value(seen, name, tunable, value) if name in seen.components else seen
+        return replace(found, seen=seen)
 
     async def look(self) -> Look:
         """Look through the cameras over the table, with the lamps of the room on for it."""

@@ -14,10 +14,11 @@ from pico.backends.guard.note import Ended, Frozen, Note
 from pico.backends.guard.verdict import Trip
 from pico.backends.guard.watch import Guard, Told, Watched
 from pico.backends.hardware.instruments import Instruments
-from pico.backends.hardware.tunables import Emitting, Shut
+from pico.backends.hardware.tunables import Emitting, Shut, word
 from pico.base import clock
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import Arm, DeadMan, Laser, Shutter
+from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.optics.audit.lasers import laser_class
 from pico.places.bench import BenchPlace
@@ -69,6 +70,11 @@ class Lights(Told):
     def is_dark(self) -> bool:
         """Whether all lasers are proven dark that a device could make dark."""
         return not self.lights() or (self._guard is not None and self._guard.is_dark)
+
+    def values(self) -> dict[str, Value]:
+        """Return what lasers and shutters read, by address, as the guard heard it last."""
+        heard = self._guard.heard() if self._guard is not None else {}
+        return {a: word(on) if a in self.shutters else on for a, on in heard.items()}
 
     def watch(self) -> None:
         """Start the guard, once the devices are connected; a bench without lasers needs none."""

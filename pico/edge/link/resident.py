@@ -14,6 +14,7 @@ import os
 import select
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import Any
@@ -45,6 +46,8 @@ def ensure(place: BenchPlace) -> None:
     )
     said = _first_line(process)
     if "ready" in said:
+        # whoever started it may outlive it, and must not keep it among the living
+        threading.Thread(target=process.wait, daemon=True, name="pico resident").start()
         return
     if process.poll() is None:
         process.terminate()
