@@ -1,5 +1,5 @@
-"""Brings a bench into a state and keeps it there: `python benchmarks/safety_acts.py LAB STATE`, for
-`benchmarks/safety_chain.py`. Says a line once it is there."""
+"""Brings a bench into a state and keeps it there, in a process of its own, for `benchmarks/safety_chain.py`. Says a
+line once it is there."""
 
 from __future__ import annotations
 
@@ -71,7 +71,3 @@ def main(lab: str, state: str) -> None:
             act()
         except PicoError as exc:
             print(exc, file=sys.stderr)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

@@ -1,6 +1,6 @@
-"""A bench of lasers at the wire in a process of its own: `python benchmarks/safety_world.py FOLDER`.
+"""A bench of lasers at the wire in a process of its own, for `benchmarks/safety_chain.py`.
 
-Makes a lab in FOLDER, starts an emulator of each of its devices with a simulated world behind, writes their addresses
+Makes a lab in a folder, starts an emulator of each of its devices with a simulated world behind, writes their addresses
 into `devices.yaml` beside the lab, so that `pico --backend hardware` takes them for real, and obeys lines of JSON on
 standard input, each answered by one: `["lit"]` (whether light leaves each laser, as the emulated devices have it),
 `["watch"]` (note from now on when light ends), `["ended"]` (when it ended, by the wall [s]), `["pull", DEVICE, true]`,
@@ -177,7 +177,3 @@ def main(folder: str, watchdog: str = "") -> None:
     print(json.dumps("ready"), flush=True)
     for line in sys.stdin:
         print(json.dumps(world.obey(*json.loads(line))), flush=True)
-
-
-if __name__ == "__main__":
-    main(*sys.argv[1:])

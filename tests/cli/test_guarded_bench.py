@@ -81,7 +81,7 @@ def test_a_guard_that_was_killed_is_told_by_the_next_command_and_followed_by_ano
     os.kill(guard, signal.SIGKILL)
     until(lambda: chain.guard() == 0)
     said = pico(*REAL, "laser")
-    assert f"(pid {guard}) was killed; bare, laser may have emitted unwatched since" in said.err
+    assert f"(pid {guard}) has ended; bare, laser may have emitted unwatched since" in said.err
     assert all(chain.ask("lit").values()), "without a dead-man nothing ends it"
     assert chain.guard() not in (0, guard), "a command that leaves light on starts a guard"
     chain.ask("pull", "lock", True)

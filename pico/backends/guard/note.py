@@ -66,10 +66,11 @@ class Note:
 
 
 def read(place: BenchPlace) -> Note:
-    """Return what is kept of the guard of a bench; a watch whose process is gone counts as killed."""
+    """Return what is kept of the guard of a bench; a watch whose process is gone counts as killed, but on an emulated
+    bench, where light ended with that process."""
     note = GUARD.read(GUARD.path(place.folder), _note) or Note()
     if note.watch is not None and not _alive(note.watch):
-        note = replace(note, killed=note.watch, watch=None)
+        note = replace(note, killed=None if place.name == "emulated" else note.watch, watch=None)
     return note
 
 
@@ -123,7 +124,7 @@ def _left_lit(ended: Ended, one: LightEnd) -> Diagnostic:
 
 def _killed(watch: Watch) -> Diagnostic:
     names = ", ".join(watch.lasers)
-    text = f"guard: the process that guarded {names} since {_local(watch.since)} (pid {watch.pid}) was killed"
+    text = f"guard: the process that guarded {names} since {_local(watch.since)} (pid {watch.pid}) has ended"
     left = [name for name in watch.lasers if name not in watch.closes_itself]
     if left:
         hint = "`pico stop --now` ends light; `pico laser` shows what each laser reads now"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Coroutine, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
@@ -312,10 +313,13 @@ class HardwareDevice:
             await self._session.halt()
 
     async def stop(self) -> None:
-        """Stop everything where it is; grippers hold what they hold, and light ends: whether or not something moves.
-        Raises PicoError if no device can be had at all."""
+        """Stop everything where it is; grippers hold what they hold, and light ends: whether or not something moves."""
         work = [] if self._session is None else [self._session.stop()]
-        await asyncio.gather(self.end_light(), *work)
+        await asyncio.gather(self._darkened(), *work)
+
+    async def _darkened(self) -> None:
+        with suppress(PicoError):  # what has no devices at all emits nothing that PICO could end
+            await self.end_light()
 
     def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
         """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""

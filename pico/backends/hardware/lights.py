@@ -97,11 +97,13 @@ class Lights(Told):
         return self.moving()
 
     def close(self) -> None:
-        """End the guard."""
+        """End the guard. That it watched a laser that may still emit is told by who comes next, unless another process
+        guards it by then."""
         guard, self._guard = self._guard, None
         if guard is not None:
             guard.close()
-            self._kept(lambda note: replace(note, watch=None))
+            if guard.is_dark:
+                self._kept(lambda note: replace(note, watch=None))
 
     async def end(self, why: str, by: str) -> Ended:
         """End all light now, because of `why`; return what became of each laser, and keep that."""

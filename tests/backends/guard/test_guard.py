@@ -117,11 +117,11 @@ def test_a_guard_that_was_killed_is_told_by_who_comes_next(tmp_path: Path) -> No
         gone = replace(watching(("bare", "laser"), ("laser",)), pid=2**22 - 1)
         write(rig.place, Note(watch=gone))
         (said,) = notices(read(rig.place))
-        assert "was killed" in said.summary and "bare may have emitted unwatched" in said.summary
+        assert "has ended" in said.summary and "bare may have emitted unwatched" in said.summary
         asyncio.run(rig.lights._bench.connect())
         rig.lights.watch()
         until(lambda: read(rig.place).watch is not None)
-        assert "was killed" in notices(read(rig.place))[0].summary, "it is told until light is let out anew"
+        assert "has ended" in notices(read(rig.place))[0].summary, "it is told until light is let out anew"
         rig.lasers.put("bare_head", False)
         rig.lasers.put("laser_head", False)
         until(lambda: read(rig.place).watch is None)
