@@ -135,6 +135,15 @@ class Guarded(Real):
     async def end_light(self) -> Any:
         raise AssertionError("nobody asks for that")
 
+    async def guarded(self) -> None:
+        raise AssertionError("nobody asks for that")
+
+    def guards(self) -> bool:
+        return True
+
+    def may_emit(self) -> bool:
+        return False
+
 
 def test_without_a_dead_man_none_is_armed_above_class_2_unless_an_interlock_is_wired_past_every_computer(
     made: Path, tmp_path: Path
