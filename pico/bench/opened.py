@@ -167,6 +167,16 @@ class Opened:
         self._edge = opened(self.setup, self.place, self.fidelity, self.folder.own)
         return self._edge
 
+    def _guarded_or_dark(self, edge: Edge) -> Edge:
+        """Have the process that guards the bench beside any command take over light that is left on; if it can't begin,
+        end that light. Nobody hears what is raised here: the next command says what became of it."""
+        try:
+            return self._handed_over(edge)
+        except PicoError:
+            with suppress(PicoError):
+                self.wait(edge.end_light())
+            return edge
+
     @property
     def sim(self) -> World:
         """The simulated world, to be changed as a hand would; raises PicoError where nothing is simulated."""
@@ -203,8 +213,7 @@ class Opened:
             return
         if (edge := self._edge) is not None and not self.thread.left_busy:
             if self._guards(edge) and edge.leaves_light():
-                with suppress(PicoError):  # what it says is said by the next command: nobody listens here any more
-                    edge = self._handed_over(edge)
+                edge = self._guarded_or_dark(edge)
             self.wait(edge.close())
         self._edge = None
         self.thread.close()

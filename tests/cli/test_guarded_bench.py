@@ -86,3 +86,9 @@ def test_a_guard_that_was_killed_is_told_by_the_next_command_and_followed_by_ano
     assert chain.guard() not in (0, guard), "a command that leaves light on starts a guard"
     chain.ask("pull", "lock", True)
     assert dark(chain, 0.7)
+
+
+def test_a_guard_that_is_ended_ends_light(chain: Chain) -> None:
+    os.kill(chain.guard(), signal.SIGTERM)
+    assert dark(chain, 5.0)
+    until(lambda: chain.guard() == 0)

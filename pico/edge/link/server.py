@@ -14,6 +14,7 @@ from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import suppress
 from typing import Any
 
+from pico.backends.devices import HARDWARE
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -131,8 +132,8 @@ async def serve(
     idle: Callable[[bool], bool] | None = None,
 ) -> None:  # fmt: skip
     """Serve an edge until SIGTERM, SIGINT or SIGHUP, or until `idle` says that nothing needs it any more, which is
-    asked with whether a client is connected; what is under way then comes to its safe end. `beside`: what goes on
-    meanwhile."""
+    asked with whether a client is connected; what is under way then comes to its safe end, and light of a real bench
+    ends, for nothing guards it any more. `beside`: what goes on meanwhile."""
     server, ended = Server(edge), asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, ended.set)
@@ -148,6 +149,9 @@ async def serve(
         for task in tasks:
             task.cancel()
     finally:
+        if edge.place.name == HARDWARE and edge.leaves_light():  # from now on nobody would guard it
+            with suppress(PicoError):
+                await edge.end_light()
         await server.close()
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import shutil
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -118,3 +119,23 @@ def test_a_lock_that_cannot_be_read_lets_nothing_remote_in(lab: Path) -> None:
     TABLE_LOCK.path(bench_at(lab).folder).write_bytes(b"{")
     with Bench.open(lab) as bench, on_behalf_of("bob"), pytest.raises(PicoError, match="cannot be read"):
         bench.wait(bench.edge.acquire("bob"))
+
+
+def test_what_somebody_far_away_has_is_brought_to_its_safe_end_once_the_bench_is_locked(lab: Path) -> None:
+    place = bench_at(lab)
+    table_lock.unlock(place, ADA)
+    with Bench.open(lab) as bench:
+        custody = bench.edge.custody  # type: ignore[union-attr]
+        with on_behalf_of("bob"):
+            lease = bench.wait(bench.edge.acquire("bob"))
+        table_lock.lock(place, ADA, "")
+        began = time.monotonic()
+        while not custody.halted:
+            assert time.monotonic() - began < 5.0
+            time.sleep(0.02)
+        assert custody.why_ended() == "a person at the table locked the bench"
+        bench.wait(bench.edge.release(lease))
+        here = bench.wait(bench.edge.acquire("pico apply"))
+        time.sleep(0.5)
+        assert not custody.halted, "a person here goes on"
+        bench.wait(bench.edge.release(here))
