@@ -49,18 +49,9 @@ def end_light(place: Place) -> Ended | None:
     assert isinstance(place, BenchPlace)
     if place.name not in (HARDWARE, EMULATED) or not place.folder.exists():
         return None
-    return asyncio.run(_end_light_here(place))
+    from pico.edge.link.server import end_light_of
 
-
-async def _end_light_here(place: BenchPlace) -> Ended | None:
-    """End light over links of this process: no other one has them, or it ends."""
-    from pico.edge.link.server import edge_of
-
-    edge = edge_of(place)
-    try:
-        return await edge.end_light()
-    finally:
-        await edge.close()
+    return asyncio.run(end_light_of(place))
 
 
 def _ask(place: Place, holder: Holder, now: bool) -> None:

@@ -15,6 +15,7 @@ from contextlib import suppress
 from typing import Any
 
 from pico.backends.devices import HARDWARE
+from pico.backends.guard.note import Ended
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -176,3 +177,13 @@ def edge_of(bench: BenchPlace, fidelity: str | None = None) -> LocalEdge:
     lab = own_lab.read(bench) or own_lab.proposed(bench.root)
     setup = own_lab.setup_of(lab)
     return embedded(setup, bench, fidelity or setup.lab.sim.fidelity, lab)
+
+
+async def end_light_of(bench: BenchPlace) -> Ended | None:
+    """End all light of a bench that no process serves, and return what became of each laser; None if it emits nothing.
+    Raises PicoError if that can't even be tried."""
+    edge = edge_of(bench)
+    try:
+        return await edge.end_light()
+    finally:
+        await edge.close()
