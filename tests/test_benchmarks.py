@@ -71,6 +71,7 @@ SMALLEST = {
     "planted_bugs": "--seeds 500 --only start",
     "predicted": "--transitions 1 --labs labs/minimal",
     "runs": "--faults 2 --interrupts 2 --pairs 1 --journal 20 --scheduler 1",
+    "safety_chain": "--faults door --states idle --only-dead-man",
     "scale": "--components 40 --moves 6 --check",
     "scan": "--looks 1 --lab labs/minimal",
     "sensor": "--repeat 1 --size 128 96",

@@ -39,7 +39,10 @@ def show(context: typer.Context, fidelity: Fidelity = None) -> None:
     """Show each laser: its class, whether it emits, its shutter, and what lets it."""
     if context.invoked_subcommand is None:
         session = Session.of(context)
-        session.show(view, session.bench(fidelity, safety="light").lasers.rows())
+        lasers = session.bench(fidelity, safety="light").lasers
+        rows = lasers.rows()
+        session.tell(lasers.notices)
+        session.show(view, rows)
 
 
 @app.command()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 
 from ..arguments import Yes, group
 from ..session import Session
@@ -17,10 +17,16 @@ ORDER = 210
 
 if TYPE_CHECKING:
     from pico.edge.network.holding import Holding
+    from pico.places.bench import BenchPlace
 
 app = group(
-    help="Who has a bench on the network.",
-    examples=("pico lease show", "pico lease take", 'pico lease steal --reason "the cell is boiling"'),
+    help="Who has a bench on the network; and the lock of a person at the table.",
+    examples=(
+        "pico lease show",
+        "pico lease take",
+        'pico lease steal --reason "the cell is boiling"',
+        "pico lease lock",
+    ),
 )
 Wait = Annotated[float, typer.Option("--wait", metavar="SECONDS", min=0, help="Wait so long where somebody has it.")]
 
@@ -98,6 +104,65 @@ def steal(
         return 1
     _hold(session, holding, holding.steal(reason))
     return 0
+
+
+@app.command()
+def lock(
+    context: typer.Context,
+    reason: Annotated[str, typer.Option("--reason", metavar="TEXT", help="Why; who is refused is told.")] = "",
+) -> None:
+    """Lock the bench for a person at the table: remote, queued and unattended work is refused.
+
+    What goes on for somebody far away, or unattended, comes to a safe end. You are Git's user.name; the lock stays
+    until you call `pico lease unlock`, also over reboots. It never keeps anybody from `pico stop` or from shutting a
+    laser, and it is not an interlock.
+
+    Examples:
+      pico lease lock
+      pico lease lock --reason "mirrors are being cleaned"
+    """
+    from pico.edge.guard.table_lock import lock
+
+    session = Session.of(context)
+    place, person = _here(session)
+    session.say(f"{lock(place, person, reason).said}. `pico lease unlock` takes the lock off.")
+
+
+@app.command()
+def unlock(context: typer.Context) -> None:
+    """Take the lock off that you put on with `pico lease lock`.
+
+    Only the person who locked the bench does so, on the machine that has the bench: no remote client can. Exit code 5:
+    somebody else locked it.
+
+    Examples:
+      pico lease unlock
+    """
+    from pico.edge.guard.table_lock import unlock
+
+    session = Session.of(context)
+    place, person = _here(session)
+    found = unlock(place, person)
+    session.say("The bench was not locked." if found is None else f"The bench is unlocked ({found.by}).")
+
+
+def _here(session: Session) -> tuple[BenchPlace, str]:
+    """Return the bench of this machine that a person stands at, and the name of that person."""
+    from pico.history.git.command import answer
+    from pico.manifest.load import find_lab
+
+    try:
+        place = session.here(find_lab(session.folder))
+    except PicoError as exc:
+        hint = "only a person at the table locks a bench, or unlocks it"
+        raise PicoError(error("table-lock", exc.diagnostics[0].summary, hint=hint), ExitCode.DENIED) from exc
+    person = answer(place.root, ["config", "user.name"]).strip()
+    if not person:
+        hint = 'say who you are: `git config --global user.name "Ada Lovelace"`'
+        raise PicoError(
+            error("table-lock", "a bench is locked by a person, and Git's `user.name` is not set", hint=hint)
+        )
+    return place, person
 
 
 def _hold(session: Session, holding: Holding, token: int) -> None:

@@ -17,6 +17,8 @@ from pico.model.record import record
 from pico.model.trace.event import Event
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
+    from pico.backends.guard.verdict import Trip
     from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
@@ -63,6 +65,36 @@ class Shown(Protocol):
     async def moment(self) -> Moment:
         """Return the bench as it is now, as far as that is known without looking. Moves, lights and waits for
         nothing."""
+        ...
+
+
+@runtime_checkable
+class LightGuarded(Protocol):
+    """A device whose light is guarded whether or not anybody has taken it, and can be ended at any time."""
+
+    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+        """Have `heard` called, in any thread, after light was ended, by the guard (with its trip) or by a stop."""
+        ...
+
+    async def guarded(self) -> None:
+        """Connect to the devices, and guard their light from now on; raises PicoError for what does not answer."""
+        ...
+
+    def guards(self) -> bool:
+        """Return whether the bench has a laser that a device could make dark; asks no device."""
+        ...
+
+    def may_emit(self) -> bool:
+        """Return whether a laser may emit that this process guards: it is connected, and not all are proven dark."""
+        ...
+
+    def dark_by_itself(self) -> frozenset[str]:
+        """Return the lasers whose light ends by itself once PICO is dead or frozen: they have a dead-man."""
+        ...
+
+    async def end_light(self) -> Ended:
+        """End all light now, for a person who asks for that, and return what became of each laser; needs no lease, and
+        no device but those of lasers and shutters. Raises PicoError if these can't be had at all."""
         ...
 
 

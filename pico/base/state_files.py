@@ -44,6 +44,17 @@ ARMED = StateFile(
     "`pico laser arm`", "the arming: the laser stays shut",
     "`pico laser disarm {stem}`, or `rm {path}`; then arm it again", Format("pico.arming"),
 )  # fmt: skip
+GUARD = StateFile(
+    BENCH + "guard.json", "memory", "which process guards which lasers, and what ended their light last",
+    "the process that has the links of the bench", "why light was ended last, and whether a guard was killed", "",
+    Format("pico.guard"),
+)  # fmt: skip
+TABLE_LOCK = StateFile(
+    BENCH + "table-lock.json", "safety", "which person at the table locked the bench, since when and why",
+    "`pico lease lock`", "the lock: remote and unattended work is let in again",
+    "look whether somebody works at the table; then `rm {path}`, and `pico lease lock` locks it anew",
+    Format("pico.table-lock"),
+)  # fmt: skip
 LOCK = StateFile(
     BENCH + "lock", "safety", "the kernel's lock of the bench, and the last token that was given out",
     "the process that takes the bench",
@@ -278,8 +289,9 @@ GIT_MESSAGE = StateFile(
 )  # fmt: skip
 
 ALL = (
-    DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB, MORNINGS, RECIPE_LOG,
-    RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
+    DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, GUARD, TABLE_LOCK, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB,
+    MORNINGS,
+    RECIPE_LOG, RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
     RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,
     EARLIER, SPLITTING, SPLIT_LOCK, DATA, PAGE, RECORD, RECORD_LOCK, SEALS, ARMED_SEAL, REMOTES, PAGE_LOCK,

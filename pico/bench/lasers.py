@@ -7,6 +7,7 @@ from dataclasses import replace
 from datetime import datetime, timedelta
 from typing import TYPE_CHECKING
 
+from pico.backends.guard.note import CODE as GUARD
 from pico.base import clock
 from pico.bench.cut_short import unattended
 from pico.bench.opened import Opened
@@ -53,10 +54,13 @@ class Lasers:
 
     def __init__(self, opened: Opened) -> None:
         self.opened = opened
+        self.notices: tuple[Diagnostic, ...] = ()
+        """What the guard of the bench had to say when `rows` looked last."""
 
     def rows(self) -> tuple[LaserRow, ...]:
         """Return the lasers of the bench, by name. Moves nothing."""
         seen = self.opened.observe()
+        self.notices = tuple(problem for problem in seen.problems if problem.code == GUARD)
         kept = {one.laser: one for one in self.opened.wait(self.opened.edge.armings())}
         found = []
         for name in policy.lasers(self.opened.setup):

@@ -43,7 +43,7 @@ class Moves:
         options = {"wait": opened.lock_timeout, "speed": opened.speed, **options}
         if opened.recording is not None:
             options |= {"within": opened.recording, "run_id": new_run_id()}
-        return Execution(plan, opened.edge, opened.thread, named, **options)
+        return Execution(plan, opened.edge_for(plan.operations), opened.thread, named, **options)
 
     def leave(self, plan: Plan, **options: Any) -> str:
         """Have a plan run by the process that serves the bench, and leave it to that; return the run's id. Raises

@@ -6,9 +6,10 @@ computes in the thread of its caller: see `docs/decisions/0013-services.md`.
 
 from __future__ import annotations
 
-from collections.abc import Coroutine
+from collections.abc import Coroutine, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self, TypeVar
+from typing import TYPE_CHECKING, Any, Self, TypeGuard, TypeVar
 
 from pico.backends.devices import HARDWARE, SIMULATOR, opener
 from pico.base.clock import Waits
@@ -29,6 +30,8 @@ from pico.places.bench import BenchPlace
 if TYPE_CHECKING:
     from pico.backends.world import World
     from pico.edge.contract import Edge
+    from pico.edge.local import LocalEdge
+    from pico.model.operation import Operation
 
 T = TypeVar("T")
 
@@ -133,6 +136,47 @@ class Opened:
                 self.fidelity = able.fidelity
         return self._edge
 
+    def edge_for(self, operations: Sequence[Operation] | None) -> Edge:
+        """Return the edge for a run of these operations, None for a run that stays open for any. If they may let light
+        out of a real laser it is in a process of its own from now on: the guard of that light must not end with this
+        one. Raises PicoError if that process can't begin."""
+        from pico.planning.checks.emission import lets_out
+
+        edge = self.edge
+        if not self._guards(edge):
+            return edge
+        lit = operations is None or any(lets_out(self.setup, one) for one in operations)
+        return self._handed_over(edge) if lit else edge
+
+    def _guards(self, edge: Edge) -> TypeGuard[LocalEdge]:
+        """Whether this process itself has the links of a real bench with lasers."""
+        if self.place.name != HARDWARE:
+            return False
+        from pico.backends.device import LightGuarded
+        from pico.edge.local import LocalEdge
+
+        return isinstance(edge, LocalEdge) and isinstance(edge.device, LightGuarded) and edge.device.guards()
+
+    def _handed_over(self, edge: Edge) -> Edge:
+        from pico.edge.link.resident import ensure
+        from pico.edge.network.opening import opened
+
+        assert isinstance(self.place, BenchPlace)
+        self.wait(edge.close())
+        ensure(self.place)
+        self._edge = opened(self.setup, self.place, self.fidelity, self.folder.own)
+        return self._edge
+
+    def _guarded_or_dark(self, edge: Edge) -> Edge:
+        """Have the process that guards the bench beside any command take over light that is left on; if it can't begin,
+        end that light. Nobody hears what is raised here: the next command says what became of it."""
+        try:
+            return self._handed_over(edge)
+        except PicoError:
+            with suppress(PicoError):
+                self.wait(edge.end_light())
+            return edge
+
     @property
     def sim(self) -> World:
         """The simulated world, to be changed as a hand would; raises PicoError where nothing is simulated."""
@@ -167,8 +211,10 @@ class Opened:
         """Let go of the edge and end its thread; one left busy by Ctrl-C is not waited for."""
         if self.thread.elsewhere:  # it is the other process's to close
             return
-        if self._edge is not None and not self.thread.left_busy:
-            self.wait(self._edge.close())
+        if (edge := self._edge) is not None and not self.thread.left_busy:
+            if self._guards(edge) and edge.leaves_light():
+                edge = self._guarded_or_dark(edge)
+            self.wait(edge.close())
         self._edge = None
         self.thread.close()
 

@@ -38,6 +38,12 @@ class Line(Generic[H]):
         """Return what `run` gives with the link, as `Bus.ask` does."""
         return await self._bus.ask(self.name, what, run, before=self._identity, within=within)
 
+    async def end(self, what: str, run: Callable[[H], T], *, within: float = USUAL) -> T:
+        """As `ask`, for what ends light: before all that waits; what was to let light out and has not begun never
+        does."""
+        self.stopped()
+        return await self._bus.ask(self.name, what, run, before=self._identity, within=within, first=True)
+
     async def move(self, what: str, run: Callable[[H], T], *, within: float = USUAL) -> T:
         """As `ask`, for what moves something or lets light out; raises PicoError where a stop was asked for since."""
         stops = self._stops

@@ -184,7 +184,9 @@ class PowerMeter(Instrument, Protocol):
 class Laser(Instrument, Protocol):
     """A laser whose emission is commanded, and read back from what it reports of itself."""
 
-    async def emit(self, on: bool) -> bool: ...
+    async def emit(self, on: bool) -> bool:
+        """Switch it, and return whether it emits as it says then; off goes before all that waits for its link."""
+        ...
 
     async def emitting(self) -> bool | None: ...
 
@@ -192,9 +194,25 @@ class Laser(Instrument, Protocol):
 class Shutter(Instrument, Protocol):
     """A shutter; its state comes from a sensor of its own, never from the echo of a command."""
 
-    async def open(self, wanted: bool) -> bool: ...
+    async def open(self, wanted: bool) -> bool:
+        """Open or close it, and return whether it is open then; closing goes before all that waits for its link."""
+        ...
 
     async def is_open(self) -> bool | None: ...
+
+
+@runtime_checkable
+class DeadMan(Protocol):
+    """A laser or shutter that ends its light by itself unless it is refreshed: the guard's own death ends light."""
+
+    @property
+    def dead_man(self) -> float | None:
+        """How long after the last refresh it ends its light [s]; None if it was not told to, or can't."""
+        ...
+
+    async def refresh(self) -> None:
+        """Keep it from ending its light for so long again; raises PicoError. It opens nothing."""
+        ...
 
 
 class Lamp(Instrument, Protocol):

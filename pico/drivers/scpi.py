@@ -130,7 +130,7 @@ class Laser(Spoken):
             visa.tell(f"OUTP {'ON' if on else 'OFF'}")
             return judging.switched(visa.ask("OUTP?"))
 
-        ask = self._line.move if on else self._line.ask
+        ask = self._line.move if on else self._line.end
         found = await ask("emit" if on else "stop emitting", switch, within=self._within)
         require_read_back(self.name, "emission", on, found)
         return found
@@ -188,7 +188,7 @@ class Shutter(Spoken):
                 raise ValueError("the sensor of the shutter repeats an earlier answer")
             return is_open
 
-        ask = self._line.move if wanted else self._line.ask
+        ask = self._line.move if wanted else self._line.end
         found = await ask("open" if wanted else "close", switch, within=3.0)
         require_read_back(self.name, "open", wanted, found)
         return found

@@ -4,6 +4,8 @@ with a sensor, lasers that report themselves, lamps, safety inputs.
 A question begins with a number, and so does its answer: one that comes twice, or too late, is none to the next one.
 `7 read NAME` is answered by `7 1`, `7 0`, or `7 ?` where that is not known; `8 set NAME 1` or `8 set NAME 0` by what is
 read then.
+`9 keep NAME SECONDS` is answered by `9 kept` if the box has a dead-man: unless it hears that again within so long, it
+sets NAME to 0 by itself.
 A shutter `NAME` is driven as such, and read from its sensor, `NAME.sensor`; a safety input is safe where it reads `1`.
 """
 
@@ -16,10 +18,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from pico.base.reasons import ReasonCode
+from pico.diagnostics import PicoError, error
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver, Kind
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity, SafetyState
+from pico.model.instruments.declaration import Setting
 from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 
@@ -99,10 +103,42 @@ class _Switch:
         return await self._line.ask(what, lambda link: link.state(f"read {name}"))
 
     async def _set(self, what: str, on: bool) -> bool | None:
-        return await self._line.move(what, lambda link: link.state(f"set {self._at} {int(on)}"))
+        ask = self._line.move if on else self._line.end
+        return await ask(what, lambda link: link.state(f"set {self._at} {int(on)}"))
 
 
-class SwitchedShutter(_Switch):
+class _Watched(_Switch):
+    """A shutter or a laser with a dead-man: the box ends its light unless it hears `keep NAME SECONDS` again in time.
+    A box without one answers that otherwise than by `kept`."""
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[SwitchLink]) -> None:
+        super().__init__(name, entry, bus)
+        said = entry.settings.get(WATCHDOG)
+        self._within = None if said is None else float(said)
+
+    @property
+    def dead_man(self) -> float | None:
+        """How long after the last `keep` it ends its light [s]; None if the lab does not ask for it."""
+        return self._within
+
+    async def refresh(self) -> None:
+        """Keep the box from ending its light for so long again."""
+        if self._within is not None:
+            await self._line.ask("keep its dead-man from closing", self._keep)
+
+    def _keep(self, link: SwitchLink) -> None:
+        if (said := link.ask(f"keep {self._at} {self._within:g}")) != "kept":
+            text = f"the box of {self.name} has no dead-man: it answers {said[:40]!r} to `keep`"
+            hint = f"take `{WATCHDOG}` out of the settings of {self.name}, or give the box one"
+            raise PicoError(error("dead-man", text, hint=hint, address=self.name))
+
+    async def _set(self, what: str, on: bool) -> bool | None:
+        if on:
+            await self.refresh()  # a box without a dead-man lets no light out here
+        return await super()._set(what, on)
+
+
+class SwitchedShutter(_Watched):
     """A shutter with a sensor of its own."""
 
     prop, _sensor = "open", ".sensor"
@@ -119,13 +155,18 @@ class SwitchedShutter(_Switch):
         return await self._read("tell its position", f"{self._at}.sensor")
 
 
-class SwitchedLaser(_Switch):
+class SwitchedLaser(_Watched):
     """A laser that reports whether it emits."""
 
     prop = "emission"
 
     async def emit(self, on: bool) -> bool:
-        return bool(await self._set("emit" if on else "go out", on))
+        found = await self._set("emit" if on else "stop emitting", on)
+        return bool(found) if found is not None else not on  # what the box does not know is not as wanted
+
+    async def stop(self) -> None:
+        """Switch it off, before all else."""
+        await self.emit(False)
 
     async def emitting(self) -> bool | None:
         return await self._read("tell whether it emits", self._at)
@@ -154,13 +195,24 @@ def _identity(link: SwitchLink) -> Identity:
     return Identity(**{key: words.get(key, "") for key in ("vendor", "model", "serial", "firmware")})
 
 
+WATCHDOG = "watchdog"
+"""The setting of a shutter or a laser that has the box end its light by itself."""
+_SETTINGS = {
+    WATCHDOG: Setting(
+        optional=True, unit="s", range=(0.5, 60.0),
+        about="after how long without a word from PICO the box ends its light by itself",
+    )
+}  # fmt: skip
+
+
 def _driver(kind: Kind, made: Any, prop: str) -> Driver:
     return Driver(
         kind=kind, made=made,
         opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),
         closed=lambda link: link.close(),
         address={"host": "the box's name or number", "port": "its TCP port", "name": "what it calls this one"},
-        bus=("host", "port"), properties={prop: ""}, settings={}, one_identity=True,
+        bus=("host", "port"), properties={prop: ""}, settings=_SETTINGS if kind in ("shutter", "laser") else {},
+        one_identity=True,
         maturity="emulated", emulator="switches", link="switches",
     )  # fmt: skip
 

@@ -20,6 +20,7 @@ from pico.model.trace.event import Event
 from pico.teleop.frames import Answer, Frame
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.model.arming import Arming
@@ -131,7 +132,12 @@ class EdgeCustody(Protocol):
         ...
 
     async def stop(self) -> None:
-        """Stop all motion now, decelerated; grippers hold what they hold. Needs no lease."""
+        """Stop all motion now, decelerated; grippers hold what they hold, and light ends. Needs no lease."""
+        ...
+
+    async def end_light(self) -> Ended | None:
+        """End all light now and return what became of each laser, None for a bench that emits nothing. Needs no lease;
+        raises PicoError if no device can be had at all."""
         ...
 
 

@@ -8,9 +8,9 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.backends.device import Began, Capabilities, Commissioned, Device
+from pico.backends.device import Began, Capabilities, Commissioned, Device, LightGuarded
 from pico.backends.hardware.report import read
-from pico.diagnostics import Diagnostic, ExitCode, PicoError, warning
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.edge import armings
 from pico.model.arming import Arming, LaserClass
 from pico.model.observation import Observation, live_state
@@ -21,12 +21,14 @@ from pico.optics.audit.lasers import laser_class
 from pico.optics.audit.limits import above_class_2
 from pico.places.bench import BenchPlace
 from pico.planning.checks.beams import shutter_of
-from pico.planning.checks.emission import above, lets_out, licensed, may_shine, refused, uncovers, why_not
+from pico.planning.checks.emission import above, is_dark, lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming, commissioning
 
 if TYPE_CHECKING:
     from pico.edge.attempts import Executing
 
+DEAD_MAN = "dead-man"
+"""The code of what is said of a laser whose light nothing would end without PICO."""
 Looking = Callable[[], Awaitable[Observation]]
 
 
@@ -36,12 +38,16 @@ class Guarded:
 
     def __init__(
         self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool],
-        most: Callable[[], LaserClass | None],
+        most: Callable[[], LaserClass | None], refused_by: Callable[[], Diagnostic | None] = lambda: None,
     ) -> None:  # fmt: skip
+        """`refused_by`: why nothing but ending light is let through now."""
         self._setup, self._inner, self._look, self._bare, self._most = setup, inner, look, bare, most
+        self._refused_by = refused_by
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that lets light out and must not fails, and nothing moves."""
+        if not _darkens(operation) and (why := self._refused_by()) is not None:
+            return OperationResult(key=key, outcome="failed", error=why)
         if not (lets_out(self._setup, operation) or uncovers(self._setup, operation)):
             return await self._inner.execute(operation, key, began)
         seen = await self._look()
@@ -53,6 +59,11 @@ class Guarded:
         if wrong:
             return OperationResult(key=key, outcome="failed", error=wrong[0], ended=seen.time)
         return await self._inner.execute(operation, key, began)
+
+
+def _darkens(operation: Operation) -> bool:
+    said = operation.arguments
+    return operation.primitive == "set" and is_dark(str(said.get("tunable")), said.get("to"))
 
 
 def _unsafe(setup: Setup, seen: Observation, operation: Operation) -> Sequence[Diagnostic]:
@@ -85,6 +96,31 @@ async def require_commissioned(setup: Setup, place: BenchPlace, device: Device, 
         raise PicoError(commissioning.refusal(able.name, given.laser, why), ExitCode.DENIED)
 
 
+def unended(setup: Setup, able: Capabilities, device: Device) -> frozenset[str]:
+    """Return the lasers whose light nothing ends once PICO is dead or frozen: no dead-man, and no interlock that is
+    wired past every computer; none on a bench where nothing is emitted."""
+    if not isinstance(device, LightGuarded) or arming.waived(setup, able.evidence):
+        return frozenset()
+    if setup.lab.policy.hard_wired_interlock:
+        return frozenset()
+    return frozenset(arming.lasers(setup)) - device.dark_by_itself()
+
+
+async def require_ended(setup: Setup, device: Device, given: Arming) -> None:
+    """Raise PicoError (exit code DENIED) for an arming above class 2 of a laser whose light nothing would end."""
+    able = await device.describe()
+    if above_class_2(given.laser_class) and given.laser in unended(setup, able, device):
+        name = given.laser
+        text = f"{name} is not armed for class {given.laser_class}: nothing would end its light if PICO were killed or "
+        detail = (
+            f"to wire: the doors and the emergency stop of the table in series, through the interlock input of {name} "
+        )
+        detail += "or the supply of its shutter, so that opening one ends its light with every computer switched off"
+        hint = "then say `policy: {hard_wired_interlock: true}` in lab.yaml; or give its shutter a dead-man, "
+        hint += "`settings: {watchdog: 1}` with the driver `switches.shutter`"
+        raise PicoError(error(DEAD_MAN, f"{text}this computer froze", detail=detail, hint=hint), ExitCode.DENIED)
+
+
 async def with_licences(
     setup: Setup, place: BenchPlace, able: Capabilities, device: Device, now: str, seen: Observation
 ) -> Observation:  # fmt: skip
@@ -100,6 +136,14 @@ async def with_licences(
     ):
         said = f"the bench is not commissioned: {why[0]}"
         found = {name: replace(one, laser_class="2", withheld=said) for name, one in found.items()}
+    bare = unended(setup, able, device)
+    without = "nothing would end its light if PICO were killed: it has no dead-man and no hard-wired interlock"
+    found = {
+        name: replace(one, laser_class="2", withheld=without)
+        if name in bare and one.by and above_class_2(one.laser_class)
+        else one
+        for name, one in found.items()
+    }
     return replace(seen, licences=found)
 
 
@@ -147,12 +191,23 @@ def shut_plan(setup: Setup, seen: Observation, operation: Operation, able: Capab
     return _plan(setup, seen, operation, able.name, able.fidelity)
 
 
+def dark_plan(setup: Setup, seen: Observation, operations: Sequence[Operation], able: Capabilities, title: str) -> Plan:
+    """Return a plan that ended light beside any run, as the journal keeps it: it tidies up, and is nothing to undo."""
+    return _planned(setup, seen, operations, able.name, able.fidelity, title)
+
+
 def _plan(setup: Setup, seen: Observation, operation: Operation, backend: str, fidelity: str) -> Plan:
-    state = live_state(setup, seen).as_json()
     title = f"{operation.component} shut: {operation.reason.text}"
+    return _planned(setup, seen, [operation], backend, fidelity, title)
+
+
+def _planned(
+    setup: Setup, seen: Observation, operations: Sequence[Operation], backend: str, fidelity: str, title: str
+) -> Plan:  # fmt: skip
+    state = live_state(setup, seen).as_json()
     return Plan(
         lab=LabRef(name=setup.lab.name, digest=setup.digest()), backend=backend, fidelity=fidelity,
-        base=Base(state=state), target=Target(title=title, cause="recover", state=state), operations=(operation,),
+        base=Base(state=state), target=Target(title=title, cause="recover", state=state), operations=tuple(operations),
     ).sealed()  # fmt: skip
 
 

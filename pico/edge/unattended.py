@@ -141,6 +141,11 @@ class Alone:
 
     # while it goes on
 
+    @property
+    def goes(self) -> bool:
+        """Whether a run is held to its terms now."""
+        return self.terms is not None and self.terms.left is None
+
     def most(self) -> LaserClass | None:
         """Return the highest class that a laser may emit as now; None where no run is held to one."""
         return self.terms.laser_class if self.terms is not None and self.terms.left is None else None

@@ -52,6 +52,9 @@ class TcpServed(_Served):
         self.address: dict[str, str | int] = {"host": "127.0.0.1", "port": self._listening.getsockname()[1]}
         self._thread.start()
 
+    def idle(self) -> None:
+        """What the device does by itself, also where nobody is connected; called all the time."""
+
     def _serve(self) -> None:
         with selectors.DefaultSelector() as waiting, self._listening:
             waiting.register(self._listening, selectors.EVENT_READ)
@@ -66,6 +69,7 @@ class TcpServed(_Served):
                             open_[link] = self._conversation()
                     elif isinstance(key.fileobj, socket.socket):
                         _answer(key.fileobj, open_, waiting)
+                self.idle()
                 for link, conversation in list(open_.items()):
                     if said := conversation.due():
                         with suppress(OSError):

@@ -7,7 +7,7 @@ from dataclasses import field, replace
 from typing import Literal
 
 from pico.diagnostics import RecordError
-from pico.model.arming import ArmingPolicy
+from pico.model.arming import ArmingPolicy, LaserClass
 from pico.model.catalog import (
     Restore,
     SeatingKind,
@@ -231,7 +231,9 @@ class Policy:
     without it. `calibrated_for`: how long a calibration of the cameras counts (`90 d`). `align`: whether an
     apply redoes the goals whose light it changes, or that are not aligned: `always`, or only where it is `asked` with
     --align. `offline`: the longest that an optimization whose `budget` says so may go on where the bench is cut off
-    from its coordinator [s]; a minute at most, and without it."""
+    from its coordinator [s]; a minute at most, and without it. `presence_ends`: the lowest laser class whose light ends
+    as soon as a curtain reports somebody at the table; without it a curtain ends no light. `hard_wired_interlock`: the
+    interlock of the table ends the light of every laser by its own wiring, without PICO."""
 
     open_beam: bool = False
     enclosed: bool | None = None
@@ -244,6 +246,8 @@ class Policy:
     align: Literal["always", "asked"] | None = None
     calibrated_for: str | None = None
     offline: float | None = None
+    presence_ends: LaserClass | None = None
+    hard_wired_interlock: bool | None = None
 
 
 @record

@@ -6,6 +6,7 @@ import os
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -80,12 +81,19 @@ def plug_in_of(module: str, path: str, more: Mapping[str, str] = {}) -> PlugIn |
         own = getattr(sys.modules.get(folder), "__file__", None) or ""
         return PlugIn(group, name.rstrip("_"), module) if Path(own).parent != Path(path).parent else None
     top = module.partition(".")[0]
+    return None if top in sys.stdlib_module_names or top == "pico" else _by_top(tuple(sys.path)).get(top)
+
+
+@lru_cache(maxsize=4)
+def _by_top(_: tuple[str, ...]) -> Mapping[str, PlugIn]:
+    """Return the first plug-in of each package at the top. Finding all entry points reads the files of every
+    distribution on the path: much too long for a device that fails ten times a second while others are asked."""
+    found: dict[str, PlugIn] = {}
     for group in KINDS:
         for entry in entries(group).values():
             one = plug_in(group, entry)
-            if one.module.partition(".")[0] == top and top != "pico":
-                return one
-    return None
+            found.setdefault(one.module.partition(".")[0], one)
+    return found
 
 
 def own_module(module: str) -> bool:

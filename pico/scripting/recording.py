@@ -91,7 +91,7 @@ class Recording:
         of = self._target.recipe
         holder = f"{RECIPE} {of}" if of else f"{RECORDING} {self.name}"
         job = Job(plan=self._plan(), holder=holder, wait=opened.lock_timeout, speed=opened.speed)
-        opened.wait(opened.edge.open(job, run))
+        opened.wait(opened.edge_for(None).open(job, run))
         self.id = opened.recording = run
         if threading.current_thread() is threading.main_thread():
             self._handlers = {n: h for n in ENDING if (h := signal.getsignal(n)) == signal.SIG_DFL}

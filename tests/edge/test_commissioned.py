@@ -119,3 +119,49 @@ def test_with_one_it_is_and_is_shut_when_something_else_answers_at_an_address(ma
         said = "the bench is not commissioned: the firmware of arm1 is 2.2.0, and was 2.1.0"
         assert any(d.summary.startswith("laser was shut") and said in d.summary for d in told), told
         assert bench.observe().components["laser"].values["shutter"].value == "closed"
+
+
+class Guarded(Real):
+    """A real bench whose light is guarded; `dead_men`: the lasers that a dead-man makes dark."""
+
+    dead_men = frozenset[str]()
+
+    def listen(self, heard: Any) -> None:
+        """Nothing ends light here."""
+
+    def dark_by_itself(self) -> frozenset[str]:
+        return self.dead_men
+
+    async def end_light(self) -> Any:
+        raise AssertionError("nobody asks for that")
+
+    async def guarded(self) -> None:
+        raise AssertionError("nobody asks for that")
+
+    def guards(self) -> bool:
+        return True
+
+    def may_emit(self) -> bool:
+        return False
+
+
+def test_without_a_dead_man_none_is_armed_above_class_2_unless_an_interlock_is_wired_past_every_computer(
+    made: Path, tmp_path: Path
+) -> None:
+    with at(made, tmp_path) as (bench, _, root):
+        write(root, report())
+        apparatus = bench.edge.apparatus  # type: ignore[union-attr]
+        device = Guarded(apparatus.device._inner)  # type: ignore[attr-defined]
+        apparatus.device = device  # type: ignore[assignment]
+        wrong = refused(bench)
+        assert wrong.code == "dead-man" and "nothing would end its light" in wrong.summary
+        assert "interlock input of laser" in wrong.detail and "hard_wired_interlock: true" in wrong.hint
+        device.dead_men = frozenset({"laser"})
+        bench.lasers.keep(arming())
+        assert bench.observe().licences["laser"].laser_class == "3R"  # type: ignore[index]
+        device.dead_men = frozenset()
+        bare = bench.observe().licences["laser"]  # type: ignore[index]
+        assert bare.laser_class == "2" and "it has no dead-man" in (bare.withheld or "")
+        lab = replace(bench.setup.lab, policy=replace(bench.setup.lab.policy, hard_wired_interlock=True))
+        apparatus.setup = replace(bench.setup, lab=lab)
+        assert bench.observe().licences["laser"].laser_class == "3R"  # type: ignore[index]

@@ -5,12 +5,17 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Coroutine, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began, Capabilities
+from pico.backends.guard.note import STOPPED, notices
+from pico.backends.guard.note import read as read_note
+from pico.backends.guard.verdict import Trip
 from pico.backends.hardware.instruments import Instruments, unwired
+from pico.backends.hardware.lights import Lights, closes_itself, lasers_of
 from pico.backends.hardware.links import Links
 from pico.backends.hardware.measuring import Readers
 from pico.backends.hardware.pictures import alike, grayed
@@ -24,7 +29,7 @@ from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
 from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
 from pico.model.measurement import Measurement
-from pico.model.observation import Observation
+from pico.model.observation import Observation, with_value
 from pico.model.operation import Operation, OperationResult
 from pico.model.pose import Pose
 from pico.model.record import as_json
@@ -33,6 +38,7 @@ from pico.model.trace.event import Event
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import MovePath
 from pico.places.bench import BenchPlace
+from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.interlocks import LAMP
 from pico.planning.routines import plugged_in
 from pico.twin.arms import TwinArm
@@ -41,6 +47,7 @@ from pico.vision.calibration import calibration_digest, known_arms, read_calibra
 from pico.vision.frame import TRIES, Frame
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
     from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
@@ -113,7 +120,13 @@ class HardwareDevice:
     async def moment(self) -> Moment:
         """Return the bench as it is known without looking, arms as they report themselves where the links are open."""
         carried = self._session.carried() if self._session is not None else {}
-        return await self._shown.moment(self.links.now(), self.links.connected, self.arms(), carried)
+        found = await self._shown.moment(self.links.now(), self.links.connected, self.arms(), carried)
+        lit = self.links.lights().values() if self.links.connected is not None else {}
+        seen = found.seen
+        for address, value in lit.items():  # the guard asks lasers and shutters all the time
+            name, _, tunable = address.partition(".")
+            seen = with_value(seen, name, tunable, value) if name in seen.components else seen
+        return replace(found, seen=seen)
 
     async def look(self) -> Look:
         """Look through the cameras over the table, with the lamps of the room on for it."""
@@ -139,7 +152,14 @@ class HardwareDevice:
         known = await self._felt(bench, recall_hands(self.place))
         found = await asyncio.to_thread(self._seen, frames, known)
         self._shown.looked(found.observation)
+        self.links.lights().gates = self._gates(found.observation)
         return found
+
+    def _gates(self, seen: Observation) -> dict[str, str]:
+        """Return the shutter on the table that stands in the beam of each laser, as the bench was seen."""
+        found = {name: shutter_of(self.setup, seen, (), name) for name in lasers_of(self.setup)
+                 if "shutter" not in self.setup.type_of(name).tunables}  # fmt: skip
+        return {name: gate for name, gate in found.items() if gate}
 
     def _seen(self, frames: list[Frame], known: Observation) -> Look:
         """What frames show; those that are the same to the last pixel show the same."""
@@ -200,7 +220,8 @@ class HardwareDevice:
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
         found = replace(found, values={**self._settings.commanded(self.setup), **found.values})
-        found = replace(found, problems=(*found.problems, *self._told(bench, await self.most())))
+        told_of = (*notices(read_note(self.place)), *self._told(bench, await self.most()))
+        found = replace(found, problems=(*found.problems, *told_of))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip
@@ -260,8 +281,16 @@ class HardwareDevice:
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.place.root, bench).image,
             keep=self._settings.put, untried=self.links.untried(), most=most,
-            require=require,
+            require=require, darken=self.links.lights().tripped,
         )  # fmt: skip
+        session, lights = self._session, self.links.lights()
+        lights.session = lambda trip: self._heard(loop, session, trip)
+        lights.moving = session.moving
+
+    def _heard(self, loop: asyncio.AbstractEventLoop, session: HardwareSession, trip: Trip) -> None:
+        """Let who has the bench hear that the guard ends light; called in the guard's thread."""
+        if session is self._session and not loop.is_closed():
+            asyncio.run_coroutine_threadsafe(session.trip(trip), loop)
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute one operation and return when it has ended."""
@@ -284,15 +313,45 @@ class HardwareDevice:
             await self._session.halt()
 
     async def stop(self) -> None:
-        """Stop everything where it is; grippers hold what they hold."""
-        if self._session is not None:
-            await self._session.stop()
+        """Stop everything where it is; grippers hold what they hold, and light ends: whether or not something moves."""
+        work = [] if self._session is None else [self._session.stop()]
+        await asyncio.gather(self._darkened(), *work)
+
+    async def _darkened(self) -> None:
+        with suppress(PicoError):  # what has no devices at all emits nothing that PICO could end
+            await self.end_light()
+
+    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+        """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""
+        self.links.listen(heard)
+
+    async def guarded(self) -> None:
+        """Connect to the devices, and guard their light from now on."""
+        await self.links.instruments()
+
+    def guards(self) -> bool:
+        """Return whether the bench has a laser that a device could make dark; asks no device."""
+        return bool(Lights(self.setup, self.place, self.links.about()).lights())
+
+    def may_emit(self) -> bool:
+        """Return whether a laser may emit that this process guards, see `pico.backends.device.LightGuarded`."""
+        return self.links.connected is not None and not self.links.lights().is_dark
+
+    def dark_by_itself(self) -> frozenset[str]:
+        """Return the lasers that have a dead-man, see `pico.backends.device.LightGuarded`; asks no device."""
+        lights = Lights(self.setup, self.place, self.links.about()).lights()
+        return frozenset(light.laser for light in lights if closes_itself(light))
+
+    async def end_light(self) -> Ended:
+        """End all light now, and return what became of each laser, see `pico.backends.device.LightGuarded`."""
+        return await self.links.lights().end("a person stopped the bench", STOPPED)
 
     async def leave(self) -> None:
         """Let others have the bench, once everything under way has ended."""
         if self._session is not None:
             await self._session.idle()
             self._session = None
+            self.links.lights().moving = tuple
 
     async def close(self) -> None:
         """Let go of the links to the instruments."""

@@ -6,6 +6,8 @@ import asyncio
 from collections.abc import Iterable, Mapping
 
 from pico.backends.attempt import Failed
+from pico.backends.guard.hearing import unsafe
+from pico.backends.guard.verdict import LIGHT, MOTION
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.protocols import SafetyInput, SafetyState
 from pico.model.operation import Operation
@@ -13,10 +15,6 @@ from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, SafetyKind
 from pico.planning.checks.emission import lets_out
 
-MOTION: frozenset[SafetyKind] = frozenset({"door", "curtain", "emergency_stop"})
-"""What keeps arms from moving where it is not safe."""
-LIGHT: frozenset[SafetyKind] = frozenset({"door", "emergency_stop", "key", "interlock"})
-"""What keeps light from being let out."""
 EVERY = 0.1
 """How often they are asked while something goes on [s]."""
 Inputs = Mapping[str, tuple[SafetyEntry, SafetyInput]]
@@ -45,11 +43,7 @@ def _unsafe(entry: SafetyEntry, state: SafetyState | BaseException) -> str:
         return f"can't be read: {state.diagnostics[0].summary}"
     if isinstance(state, BaseException):
         raise state
-    if state.safe is None:
-        return "is not known to be safe"
-    if not state.safe:
-        return "is not safe"
-    return f"was last heard {state.age:.1f} s ago" if state.age > entry.heartbeat else ""
+    return unsafe(entry, state)
 
 
 async def require_safe(inputs: Inputs, kinds: Iterable[SafetyKind]) -> None:

@@ -10,6 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
 from pico.backends.hardware.instruments import Instruments, wired
+from pico.backends.hardware.lights import Lights
 from pico.backends.hardware.settings import Settings
 from pico.backends.instruments import emulated
 from pico.drivers.registry import Buses, driver
@@ -18,6 +19,8 @@ from pico.model.wiring import DeviceEntry
 from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
+    from pico.backends.guard.verdict import Trip
     from pico.emulators.registry import EmulatedBench
 
 
@@ -58,7 +61,10 @@ class Links:
         self.emulators: EmulatedBench | None = None
         self._buses = Buses()
         self._instruments: Instruments | None = None
+        self._made: Instruments | None = None
         self._about: Instruments | None = None
+        self._lights: Lights | None = None
+        self._heard: Callable[[Ended, Trip | None], None] | None = None
         self._connecting = asyncio.Lock()
 
     @property
@@ -98,10 +104,31 @@ class Links:
             if self._instruments is None:
                 if self._before is not None:
                     await self._before.close()
-                found = wired(self.setup, self._reached(), self._buses, Settings(self.place))
+                found = self._wired()
                 await found.connect()
                 self._instruments = found
+                self.lights().watch()
             return self._instruments
+
+    def _wired(self) -> Instruments:
+        """Return the instruments over the links of this bench, connected or not."""
+        if self._made is None:
+            self._made = wired(self.setup, self._reached(), self._buses, Settings(self.place))
+        return self._made
+
+    def lights(self) -> Lights:
+        """Return what ends light here; it needs no other device to answer. Raises PicoError for devices that can't be
+        had at all."""
+        if self._lights is None:
+            self._lights = Lights(self.setup, self.place, self._wired())
+            self._lights.listening = self._heard
+        return self._lights
+
+    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+        """Have `heard` called, in any thread, after light was ended."""
+        self._heard = heard
+        if self._lights is not None:
+            self._lights.listening = heard
 
     async def reached(self) -> dict[str, DeviceEntry]:
         """Connect, and return the devices with the addresses that lead to them; raises PicoError as `instruments`."""
@@ -119,7 +146,10 @@ class Links:
         """Let go of every link, and end what emulates."""
         if _open.get(self.place) is self:
             del _open[self.place]
-        found, self._instruments = self._instruments, None
+        found, self._instruments, self._made = self._made, None, None
+        lights, self._lights = self._lights, None
+        if lights is not None:
+            await asyncio.to_thread(lights.close)
         if found is not None:
             await asyncio.gather(*(one.close() for one in found.all.values()), return_exceptions=True)
         await self._buses.close()

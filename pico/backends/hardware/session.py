@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Coroutine, Mapping
+from collections.abc import Awaitable, Callable, Coroutine, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
@@ -12,16 +12,19 @@ from pico.backends import checks, ways
 from pico.backends.attempt import Failed, plug_in_failed
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began
+from pico.backends.guard.verdict import Trip
 from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
 from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
+from pico.backends.hardware.tunables import Driven
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
 from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.drivers.protocols import Arm
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
@@ -30,6 +33,7 @@ from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.trace.event import Event, EventKind
 from pico.motion.types import Blocked, Motion, MovePath, Stage
+from pico.planning.checks.emission import lets_out
 from pico.planning.routines import carried
 from pico.twin.arms import TwinArm
 
@@ -45,7 +49,8 @@ class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
     `now`: the bench's clock [s]; `keep`: keeps what was commanded and nobody reads, None where nobody knows it any
     more; `untried`: robots whose driver was never tried on a device; `most`: the greatest speed of tools [mm/s], where
-    a person may be near; `require`: see `pico.backends.device.Device.take`."""
+    a person may be near; `require`: see `pico.backends.device.Device.take`; `darken` ends light beside that, and keeps
+    why."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
@@ -53,16 +58,18 @@ class HardwareSession:
         measure: Measuring, image: Callable[[str], Awaitable[Reading]], keep: Callable[[str, Value | None], None],
         untried: frozenset[str] = frozenset(),
         most: float | None = None, require: Callable[[], None] = lambda: None,
+        darken: Callable[[str], Awaitable[object]] | None = None,
     ) -> None:  # fmt: skip
         self._setup, self._bench, self._known, self._motion, self._arms = setup, bench, known, motion, arms
         self._tell_all, self._now, self._pause, self._measured, self._image = tell, now, pause, measure, image
         self._keep, self._untried, self._moved, self._most = keep, untried, set[str](), most
-        self._require_lease = require
+        self._require_lease, self._darken = require, darken
         self._zones, self._looking = ways.Zones(setup), asyncio.Lock()
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._ways: dict[str, Way] = {}
         self._halting = self._stopped = False
         self._tripped: Diagnostic | None = None
+        self._light_ended: Diagnostic | None = None
         self._told = 0
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
@@ -70,8 +77,8 @@ class HardwareSession:
 
         Raises PicoError (exit code INTERRUPTED) where it was stopped before it began.
         """
-        if self._stopped:
-            raise PicoError(checks.STOPPED, ExitCode.INTERRUPTED)
+        if self._stopped or self._light_ended:
+            raise PicoError(self._light_ended or checks.STOPPED, ExitCode.INTERRUPTED)
         task = self._under_way[key] = asyncio.create_task(self._attempt(operation, key, began))
         task.add_done_callback(lambda _: self._under_way.pop(key, None))
         return await asyncio.shield(task)
@@ -87,6 +94,8 @@ class HardwareSession:
         try:
             self._require_running()
             data = await self._guarded(operation, lambda: self._act(operation, key))
+            if self._light_ended and operation.primitive in ("measure", "auto_range"):
+                raise Failed(self._light_ended)  # it may have been measured in the dark
         except Failed as exc:
             failure = self._ended() if self._stopped else exc
         except PicoError as exc:
@@ -114,8 +123,13 @@ class HardwareSession:
             await asyncio.wait([acting, watching], return_when=asyncio.FIRST_COMPLETED)
             if not acting.done() and watching.done():
                 self._tripped = watching.result()
-                await self._halt_all()
-                await self._shut()
+                darken = [] if self._darken is None else [self._darken(self._tripped.summary)]
+                await asyncio.gather(self._halt_all(), self._shut(), *darken)
+                try:
+                    return await acting
+                finally:
+                    if lets_out(self._setup, operation):  # it may have done so after all was closed
+                        await self._shut()
             return await acting
         finally:
             watching.cancel()
@@ -156,19 +170,46 @@ class HardwareSession:
         await self.idle()
 
     async def stop(self) -> None:
-        """Stop everything under way: arms come to rest, hands hold what they hold, shutters close. Nothing moves
-        again until the bench is taken anew."""
+        """Stop everything under way: arms come to rest, hands hold what they hold, light ends. Nothing moves again
+        until the bench is taken anew."""
         await self._halt_all()
         await self.idle()
         await self._shut()
 
     async def _shut(self) -> None:
+        """Close every shutter and switch off every laser, all at once; whoever looks next reads back what became of
+        each."""
+        await asyncio.gather(*(self._dark(one, value) for one, value in self._gates()))
+
+    async def _dark(self, one: Driven, value: Value) -> None:
+        with suppress(PicoError):
+            await one.set(value)
+
+    def _gates(self) -> Iterator[tuple[Driven, Value]]:
+        """Yield what lets light out, each with the value at which it does not."""
         for address, one in self._bench.tunables.items():
             name, _, tunable = address.partition(".")
-            kind = self._setup.type_of(name).tunables.get(tunable)
-            if tunable == "shutter" and kind and "closed" in kind.choices:
-                with suppress(PicoError):  # it is read back by whoever looks next
-                    await one.set("closed")
+            kind = self._setup.type_of(name)
+            own = kind.tunables.get(tunable)
+            if tunable == "shutter" and own and "closed" in own.choices:
+                yield one, "closed"
+            elif tunable == "emission" and kind.optics.element == "source":
+                yield one, False
+
+    def moving(self) -> tuple[Arm, ...]:
+        """Return the arms that are on their way."""
+        return tuple(self._bench.arms[robot] for robot in self._ways)
+
+    async def trip(self, trip: Trip) -> None:
+        """Hear that the guard ends light: what is under way fails for that, and nothing more begins until the bench is
+        taken anew. Arms stop if the cause concerns them, else they come to their safe end."""
+        self._tripped = self._light_ended = error(
+            "unsafe", f"the guard ended light: {trip.said}", hint="look what it is, then begin anew"
+        )
+        if trip.stops_arms or not self._ways:
+            await self._halt_all()
+        else:
+            self._halting = True
 
     async def _halt_all(self) -> None:
         """Stop all that moves; what is under way fails."""

@@ -88,10 +88,10 @@ class Shut:
 
     async def read(self) -> ObservedValue:
         found = await self.instrument.is_open()
-        return UNKNOWN if found is None else ObservedValue(value=_word(found))
+        return UNKNOWN if found is None else ObservedValue(value=word(found))
 
     async def set(self, value: Value) -> Value:
-        return _word(await self.instrument.open(value == "open"))
+        return word(await self.instrument.open(value == "open"))
 
     async def home(self) -> Value:
         raise _NO_AXIS
@@ -137,7 +137,8 @@ class Lit:
         raise _NO_AXIS
 
 
-def _word(found: bool) -> str:
+def word(found: bool) -> str:
+    """Return what a shutter is, by whether it is open."""
     return "open" if found else "closed"
 
 

@@ -1,9 +1,13 @@
-"""Stopping the run that somebody else's process has under way; it needs no lock, and no lab that can be read."""
+"""Stopping the run that somebody else's process has under way, and ending light; it needs no lock, and only ending the
+light of a bench that no process serves needs a lab that can be read."""
 
 from __future__ import annotations
 
+import asyncio
 import time
 
+from pico.backends.devices import EMULATED, HARDWARE
+from pico.backends.guard.note import Ended
 from pico.diagnostics import PicoError, error
 from pico.edge.network.opening import holder_of, line_of, remembered
 from pico.edge.network.remotes import Place
@@ -33,6 +37,21 @@ def stop(place: Place, *, now: bool = False) -> tuple[Holder | None, RunRecord |
         time.sleep(0.02 if isinstance(place, BenchPlace) else 0.2)
     with remembered(place) as memory:
         return holder, memory.last() if memory else None
+
+
+def end_light(place: Place) -> Ended | None:
+    """End all light of a bench, whoever has it and whether or not anything moves; return what became of each laser,
+    None for a bench that emits nothing. Raises PicoError if that can't even be tried."""
+    line = line_of(place)
+    if line is not None:
+        ended: Ended | None = line.call("end_light")
+        return ended
+    assert isinstance(place, BenchPlace)
+    if place.name not in (HARDWARE, EMULATED) or not place.folder.exists():
+        return None
+    from pico.edge.link.server import end_light_of
+
+    return asyncio.run(end_light_of(place))
 
 
 def _ask(place: Place, holder: Holder, now: bool) -> None:

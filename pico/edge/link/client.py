@@ -26,6 +26,7 @@ from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
     from pico.backends.sight import Look
     from pico.twin.placement import Placement
     from pico.twin.snapshot import Snapshot
@@ -328,8 +329,13 @@ class RemoteEdge:
         await self._call("halt")
 
     async def stop(self) -> None:
-        """Stop all motion now; grippers hold what they hold."""
+        """Stop all motion now; grippers hold what they hold, and light ends."""
         await self._call("stop")
+
+    async def end_light(self) -> Ended | None:
+        """End all light now, and return what became of each laser."""
+        found: Ended | None = await self._call("end_light")
+        return found
 
     @property
     def memory(self) -> RemoteMemory | None:

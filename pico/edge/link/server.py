@@ -14,6 +14,8 @@ from collections.abc import AsyncIterator, Callable, Coroutine
 from contextlib import suppress
 from typing import Any
 
+from pico.backends.devices import HARDWARE
+from pico.backends.guard.note import Ended
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab
@@ -43,11 +45,20 @@ class Server:
         self._clients: set[asyncio.Task[Any]] = set()
         self._ending = False
 
+    @property
+    def has_clients(self) -> bool:
+        """Whether a client is connected."""
+        return bool(self._clients)
+
     async def open(self) -> None:
         """Begin to serve; raises PicoError where somebody else serves this bench."""
         if place.find(self._edge.place) is not None:
             raise PicoError(
-                error("link", f"the bench `{self._edge.place.name}` in {self._edge.place.root} is served already"),
+                error(
+                    "link",
+                    f"the bench `{self._edge.place.name}` in {self._edge.place.root} is served already",
+                    hint="by another `pico edge`, or by the guard of its lasers, which ends soon after all are dark",
+                ),
                 ExitCode.LOCKED,
             )
         mask = os.umask(0o177)
@@ -119,9 +130,11 @@ class Server:
 async def serve(
     edge: LocalEdge, ready: Callable[[], None] = lambda: None,
     beside: Callable[[], Coroutine[Any, Any, None]] | None = None,
+    idle: Callable[[bool], bool] | None = None,
 ) -> None:  # fmt: skip
-    """Serve an edge until SIGTERM, SIGINT or SIGHUP; what is under way then comes to its safe end. `beside`: what goes
-    on meanwhile."""
+    """Serve an edge until SIGTERM, SIGINT or SIGHUP, or until `idle` says that nothing needs it any more, which is
+    asked with whether a client is connected; what is under way then comes to its safe end, and light of a real bench
+    ends, for nothing guards it any more. `beside`: what goes on meanwhile."""
     server, ended = Server(edge), asyncio.Event()
     for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         asyncio.get_running_loop().add_signal_handler(number, ended.set)
@@ -131,11 +144,22 @@ async def serve(
     try:
         ready()
         tasks = [asyncio.create_task(_mind(edge)), *([asyncio.create_task(beside())] if beside else ())]
+        if idle is not None:
+            tasks.append(asyncio.create_task(_until_idle(server, idle, ended)))
         await ended.wait()
         for task in tasks:
             task.cancel()
     finally:
+        if edge.place.name == HARDWARE and edge.leaves_light():  # from now on nobody would guard it
+            with suppress(PicoError):
+                await edge.end_light()
         await server.close()
+
+
+async def _until_idle(server: Server, idle: Callable[[bool], bool], ended: asyncio.Event) -> None:
+    while not idle(server.has_clients):
+        await asyncio.sleep(MINDS / 2)
+    ended.set()
 
 
 async def _mind(edge: LocalEdge) -> None:
@@ -153,3 +177,13 @@ def edge_of(bench: BenchPlace, fidelity: str | None = None) -> LocalEdge:
     lab = own_lab.read(bench) or own_lab.proposed(bench.root)
     setup = own_lab.setup_of(lab)
     return embedded(setup, bench, fidelity or setup.lab.sim.fidelity, lab)
+
+
+async def end_light_of(bench: BenchPlace) -> Ended | None:
+    """End all light of a bench that no process serves, and return what became of each laser; None if it emits nothing.
+    Raises PicoError if that can't even be tried."""
+    edge = edge_of(bench)
+    try:
+        return await edge.end_light()
+    finally:
+        await edge.close()

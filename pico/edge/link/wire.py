@@ -11,6 +11,7 @@ from functools import cache
 from typing import Any
 
 from pico.backends.device import Capabilities
+from pico.backends.guard.note import Ended
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.armings import Kept
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
@@ -66,6 +67,7 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "cancel": ((str,), None),
     "halt": ((), None),
     "stop": ((), None),
+    "end_light": ((), Ended | None),
     "resolve": ((str, Outcome, str), None),
     "memory": ((), bool),
     "memory.runs": ((), tuple[RunRecord, ...]),

@@ -7,6 +7,9 @@ import secrets
 from collections.abc import AsyncIterator
 from typing import Any
 
+from pico.backends.device import LightGuarded
+from pico.backends.guard.note import notices, read
+from pico.diagnostics import Diagnostic
 from pico.edge.live import telling
 from pico.edge.local import LocalEdge
 from pico.model.record import as_json
@@ -21,9 +24,9 @@ DIM = 0.25
 
 
 async def follow(edge: LocalEdge) -> AsyncIterator[Document]:
-    """Yield what who draws the bench of an edge is told, for ever (see `telling`), and what happens in its runs as
-    `{"told": "run"}`. Where the bench looks otherwise, by another Lab, it begins anew. Raises PicoError where nobody
-    can tell where things are."""
+    """Yield what who draws the bench of an edge is told, for ever (see `telling`), what happens in its runs as
+    `{"told": "run"}`, and whenever that changes what the guard has to say as `{"told": "guard"}`. Where the bench looks
+    otherwise, by another Lab, it begins anew. Raises PicoError where nobody can tell where things are."""
     following = _Following(edge)
     end = edge.runs.listen(following.hear)
     try:
@@ -40,6 +43,7 @@ class _Following:
         self._edge, self._happened = edge, list[Event]()
         self._told: telling.Told | None = None
         self._moving, self._looked, self._lit = False, 0.0, 0.0
+        self._noted: tuple[Diagnostic, ...] = ()
 
     def hear(self, event: Event) -> None:
         """Take in what happened in a run: of its progress the last alone counts."""
@@ -62,7 +66,8 @@ class _Following:
         if told is None or not telling.drawn_alike(told.setup, setup):
             epoch = secrets.randbits(32)
             self._told, first = await asyncio.to_thread(telling.begun, setup, moment, epoch)
-            return [first, *self._events()]
+            self._noted = ()
+            return [first, *self._guard(), *self._events()]
         told, poses = telling.moved(told, moment)
         told, changes = telling.stood(told, moment)
         self._moving = bool(poses["moved"]["arms"] or poses["moved"]["bodies"])
@@ -70,11 +75,21 @@ class _Following:
             told, light = await self._relit(told, moment)
             changes += light
         self._told = told
-        return [poses, *changes, *self._events()]
+        return [poses, *changes, *self._guard(), *self._events()]
 
     async def _relit(self, told: telling.Told, moment: Moment) -> tuple[telling.Told, list[Document]]:
         self._lit = self._looked
         return await asyncio.to_thread(telling.relit, told, moment)
+
+    def _guard(self) -> list[Document]:
+        """Return what the guard has to say, if that changed."""
+        if not isinstance(self._edge.device, LightGuarded):
+            return []
+        now = notices(read(self._edge.place))
+        if now == self._noted:
+            return []
+        self._noted, rev = now, self._told.rev if self._told is not None else 0
+        return [{"told": "guard", "rev": rev, "data": {"notices": as_json(now)}}]
 
     def _events(self) -> list[Document]:
         happened, rev = list(self._happened), self._told.rev if self._told is not None else 0

@@ -4,11 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
-from pico.backends.device import Capabilities, Device
+from pico.backends.device import Capabilities, Device, LightGuarded
 from pico.edge.remembering import Remembering
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
+
+if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
+    from pico.backends.guard.verdict import Trip
 
 
 class Apparatus:
@@ -17,10 +22,23 @@ class Apparatus:
     def __init__(
         self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], clock: Callable[[], str]
     ) -> None:
-        self.setup, self.place, self.device = setup, place, opening(setup)
+        self.place, self._opening = place, opening
+        self._heard: Callable[[Ended, Trip | None], None] | None = None
+        self.setup, self.device = setup, self._opened(setup)
         self.now, self.journals = clock, Remembering(place, clock)
-        self._opening = opening
         self._usual: tuple[Setup, Device] | None = None
+
+    def _opened(self, setup: Setup) -> Device:
+        device = self._opening(setup)
+        if self._heard is not None and isinstance(device, LightGuarded):
+            device.listen(self._heard)
+        return device
+
+    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+        """Have `heard` called, in any thread, after light was ended beside a run."""
+        self._heard = heard
+        if isinstance(self.device, LightGuarded):
+            self.device.listen(heard)
 
     @property
     def usual(self) -> Setup:
@@ -45,13 +63,13 @@ class Apparatus:
 
     def become(self, setup: Setup) -> None:
         """Work on another bench from now on: the Lab was changed."""
-        self.setup, self.device = setup, self._opening(setup)
+        self.setup, self.device = setup, self._opened(setup)
 
     def go_at(self, speed: float | None) -> None:
         """Have every robot at a share of its joint limits until `go_as_usual`; None: as the lab says."""
         if (setup := self.setup.at_speed(speed)) != self.setup:
             self._usual = self.setup, self.device
-            self.setup, self.device = setup, self._opening(setup)
+            self.setup, self.device = setup, self._opened(setup)
 
     def go_as_usual(self) -> None:
         """Have the device that was there before `go_at`."""

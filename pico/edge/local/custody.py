@@ -8,6 +8,7 @@ from contextlib import suppress
 from itertools import count
 from typing import TYPE_CHECKING, Protocol
 
+from pico.base.state_files import TABLE_LOCK
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge import own_lab
 from pico.edge.kept_lab import KeptLab
@@ -96,6 +97,7 @@ class Custody:
         self.steering: Teleoperating | None = None
         self._ended_for = ""  # why what is under way was ended by somebody else than its client
         self._stopping: Stopping = ""
+        self._afar = ""  # for whom of a coordinator the bench is taken
         self._attempts: Attempts | None = None
         self._under_way: dict[str, asyncio.Task[OperationResult]] = {}
         self._releasing = asyncio.Lock()
@@ -119,7 +121,7 @@ class Custody:
         lease = await self._lock.acquire_within(
             holder, wait, lambda: self.tenant.is_cancelled(run) or (own and self.halted)
         )
-        self.halted, self._stopping, self._ended_for = False, "", ""
+        self.halted, self._stopping, self._ended_for, self._afar = False, "", "", from_afar()
         try:
             self._apparatus.require_kept()
             try:
@@ -194,6 +196,8 @@ class Custody:
             if turn % LOOKS == LOOKS - 1 and (idle or self.tenant.is_open or self.tenant.is_running):
                 with suppress(PicoError):  # whatever moves reports a journal that is gone
                     await self.shut_over()
+            if turn % LOOKS == 0 and not self.halted and (self._afar or self._licensing.alone.goes):
+                await self._obey_table()
             asked = asked_to_stop(self._apparatus.place, lease.token)
             if asked is not None and asked != last:
                 last = asked
@@ -203,6 +207,12 @@ class Custody:
                     await self.release(lease)
                     return
             await asyncio.sleep(OBEYS)
+
+    async def _obey_table(self) -> None:
+        """Bring what goes on for somebody far away, or for nobody, to a safe end once a person locked the bench."""
+        if TABLE_LOCK.path(self._apparatus.place.folder).exists():
+            self._ended_for = self._ended_for or "a person at the table locked the bench"
+            await self.halt_for_client()
 
     # operations
 

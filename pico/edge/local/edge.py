@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import AsyncIterator, Callable
 from typing import TYPE_CHECKING
 
-from pico.backends.device import Capabilities, Device
+from pico.backends.device import Capabilities, Device, LightGuarded
 from pico.backends.devices import opener
 from pico.backends.world import World
 from pico.base.clock import now as clock_now
@@ -28,6 +28,8 @@ from pico.model.trace.event import Event
 from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
+    from pico.backends.guard.note import Ended
+    from pico.backends.guard.verdict import Trip
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.edge.unattended import Alone
@@ -39,6 +41,11 @@ if TYPE_CHECKING:
     from pico.runs.journal import Journal
     from pico.teleop.frames import Answer, Frame
     from pico.twin.snapshot import Snapshot
+
+
+OWN_HOLDERS = frozenset({"pico laser disarm"})
+ENDS = "the end of "
+"""For what an edge takes the bench by itself, to end light and to leave the bench safe: no lock keeps it from that."""
 
 
 class LocalEdge(Edge):
@@ -61,6 +68,16 @@ class LocalEdge(Edge):
         self.custody = Custody(self.apparatus, self.sight, self.licensing, self.lock, self._kept)
         self.runs = Runs(self.apparatus, self.sight, self.licensing, self.custody, self._kept)
         self.custody.tenant = self.runs
+        self.apparatus.listen(self._light_ended)
+
+    def _light_ended(self, ended: Ended, trip: Trip | None) -> None:
+        """Write into the journal that light was ended beside a run; called in any thread."""
+        from pico.edge.guard.journaling import record_ended
+
+        lease = self.custody.lease
+        token = lease.token if lease is not None else self.lock.last_token()
+        own = self.apparatus
+        record_ended(own.setup, own.device, own.journals.path, ended, self.run_under_way(), token)
 
     # the bench
 
@@ -199,6 +216,10 @@ class LocalEdge(Edge):
         return self.lock.holder()
 
     async def acquire(self, holder: str, wait: float = 0.0) -> Lease:
+        if holder not in OWN_HOLDERS and not holder.startswith(ENDS):
+            from pico.edge.guard.table_lock import require
+
+            require(self.place, alone=self.alone.goes)
         return await self.custody.take(holder, wait)
 
     async def release(self, lease: Lease) -> None:
@@ -222,6 +243,17 @@ class LocalEdge(Edge):
 
     async def stop(self) -> None:
         await self.custody.stop()
+
+    async def end_light(self) -> Ended | None:
+        """End all light now, whoever has the bench, and return what became of each laser; None if nothing emits here.
+        Raises PicoError if no device can be had at all."""
+        device = self.apparatus.device
+        return await device.end_light() if isinstance(device, LightGuarded) else None
+
+    def leaves_light(self) -> bool:
+        """Return whether this process has the links of lasers of which one may emit: its guard ends with it."""
+        device = self.apparatus.device
+        return isinstance(device, LightGuarded) and device.may_emit()
 
     async def end_of(self, holder: str) -> None:
         """Bring what a holder has under way to its safe end, and take the bench back from it."""

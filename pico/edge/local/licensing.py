@@ -48,15 +48,18 @@ class Licensing:
     async def arm(self, arming: Arming) -> Arming:
         """Keep an arming, see `pico.edge.contract.EdgeLicensing`."""
         from pico.edge.armings import keep
-        from pico.edge.emission import require_commissioned
+        from pico.edge.emission import require_commissioned, require_ended
+        from pico.edge.guard.table_lock import require
         from pico.policy.arming import refusal
 
         own = self._apparatus
         require_attached(own.place)
+        require(own.place)
         given = replace(arming, backend=(await own.device.describe()).name)
         if wrong := refusal(own.setup, given, own.now()):
             raise PicoError(wrong, ExitCode.DENIED)
         await require_commissioned(own.setup, own.place, own.device, own.now(), given)
+        await require_ended(own.setup, own.device, given)
         keep(own.place, given)
         return given
 
@@ -152,12 +155,21 @@ class Licensing:
         from pico.edge.emission import Guarded
 
         own, observe = self._apparatus, self._sight.observe
-        guarded = Guarded(own.setup, inner, observe, bare, self.alone.most)
+        guarded = Guarded(own.setup, inner, observe, bare, self.alone.most, self._refused)
         if not own.has_samples:
             return guarded
         from pico.edge.dose import Dosing
 
         return Dosing(own.setup, own.place, guarded, observe)
+
+    def _refused(self) -> Diagnostic | None:
+        """Return why a person at the table lets nothing through that goes on now, None if it is let through."""
+        from pico.edge.guard.table_lock import refusal
+
+        try:
+            return refusal(self._apparatus.place, alone=self.alone.goes)
+        except PicoError as exc:  # of a lock that can't be read nobody knows whose work it lets in
+            return exc.diagnostics[0]
 
     # runs that run unattended
 
@@ -172,7 +184,10 @@ class Licensing:
 
     async def hold(self, terms: Terms) -> Left | None:
         """Hold an unattended run to its terms; see `pico.edge.contract.EdgeLicensing`."""
+        from pico.edge.guard.table_lock import require
+
         require_attached(self._apparatus.place)
+        require(self._apparatus.place, alone=True)
         return await self.alone.hold(terms)
 
     def hear(self, recipe: str) -> None:

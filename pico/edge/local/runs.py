@@ -97,6 +97,7 @@ class Runs:
         """Judge a plan again, and start a run of it; see `pico.edge.contract.EdgeRuns`."""
         if not job.resumes and self.started.is_known(run, job.plan.digest):
             return run
+        self._require_unlocked()
         self.started.cancelled.discard(run)  # of an earlier time that it was taken up
         running = self._new(job, run)
         lease = self._step_of(job) if job.within else await self._taken(job, running)
@@ -120,6 +121,7 @@ class Runs:
         """Take the bench and begin a run that stays open; see `pico.edge.contract.EdgeRuns`."""
         from pico.edge.open_run import OpenRun
 
+        self._require_unlocked()
         lease = await self._taken(job, self._new(job, run))
         try:
             seen, able = await self._permitted(job.plan)
@@ -130,6 +132,12 @@ class Runs:
             raise
         self._open = OpenRun(run, job.plan)
         return lease
+
+    def _require_unlocked(self) -> None:
+        """Raise PicoError if a person at the table lets this work not begin."""
+        from pico.edge.guard.table_lock import require
+
+        require(self._apparatus.place, alone=self._licensing.alone.goes)
 
     async def finish(self, run: str, outcome: RunOutcome) -> RunReport:
         """End an open run and give the bench back; see `pico.edge.contract.EdgeRuns`."""

@@ -68,4 +68,7 @@ class Sight:
         own = self._apparatus
         if self._able is None or self._able[0] is not own.device:
             self._able = own.device, await own.device.describe()
+        from pico.edge.guard.table_lock import notice
+
+        seen = replace(seen, problems=(*seen.problems, *notice(own.place)))
         return await with_licences(own.setup, own.place, self._able[1], own.device, own.now(), seen)

@@ -16,7 +16,7 @@ _LOOKING = (
 _MOVING = (
     "acquire", "execute", "start", "open", "finish", "cancel", "hold", "goes_on", "leave", "resolve", "disarm",
 )  # fmt: skip
-ANYBODY = frozenset({"halt", "stop"})
+ANYBODY = frozenset({"halt", "stop", "end_light"})
 """Calls that need no role, only somebody who is known."""
 
 

@@ -235,7 +235,7 @@ class Uplink:
         from websockets.exceptions import ConnectionClosed
 
         try:
-            with on_behalf_of(str(said.get("by", {}).get("who", ""))):
+            with on_behalf_of(str(said.get("by", {}).get("who", "")) or "somebody at the coordinator"):
                 async for answer in self._answers(said, taken):
                     await self._send({"id": call, **answer})
         except ConnectionClosed:  # it is asked again, and what was a command is answered then

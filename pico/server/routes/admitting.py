@@ -29,7 +29,7 @@ from pico.server.guard.saying import failure, status_of
 from pico.server.store.books import Books
 
 ROLE = "x-pico-role"
-URGENT = ("/calls/stop", "/calls/halt")
+URGENT = ("/calls/stop", "/calls/halt", "/calls/end_light")
 """Paths that are answered however often somebody asks."""
 SOCKETS = 100
 """How many sockets a principal may have open at a time."""

@@ -6,6 +6,7 @@ import asyncio
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -13,6 +14,7 @@ from bench_at import bench_at
 from laser_lab import bench, carry, observed, search, set_to, with_type
 
 from pico.backends.attempt import Failed
+from pico.backends.guard.verdict import Cause, Trip
 from pico.backends.hardware import guarding
 from pico.backends.hardware.guarding import concerned, require_safe, tripped, until_tripped
 from pico.backends.hardware.instruments import Instruments
@@ -367,10 +369,13 @@ def test_every_shutter_closes_once_an_input_trips_and_nothing_is_done_then(monke
     one, devices = session(door)
     devices["laser.emission"].is_ = False
 
+    switched = list[bool]()
+
     async def slow(wanted: bool) -> bool:
         door.state = SafetyState(safe=False, age=0.0)
         for _ in range(50):
             await asyncio.sleep(0)
+        switched.append(wanted)
         return wanted
 
     monkeypatch.setattr(devices["laser.emission"], "emit", slow)
@@ -384,11 +389,12 @@ def test_every_shutter_closes_once_an_input_trips_and_nothing_is_done_then(monke
     result, code = asyncio.run(both())
     assert code == "stopped" and result.outcome == "done", "it had been let out before"
     assert {n: d.told for n, d in devices.items() if n.endswith("shutter")} == {
-        "laser.shutter": [False], "gate.shutter": [False], "second.shutter": [False]
+        "laser.shutter": [False, False], "gate.shutter": [False, False], "second.shutter": [False, False]
     }  # fmt: skip
+    assert switched[0] and not any(switched[1:]) and len(switched) > 1, "what came on meanwhile goes off again"
 
 
-def test_a_stop_closes_every_shutter_though_one_of_them_fails_and_switches_nothing_else() -> None:
+def test_a_stop_ends_all_light_though_one_shutter_fails() -> None:
     one, devices = session()
 
     async def broken(wanted: bool) -> bool:
@@ -396,7 +402,7 @@ def test_a_stop_closes_every_shutter_though_one_of_them_fails_and_switches_nothi
 
     devices["laser.shutter"].open = broken  # type: ignore[method-assign]
     asyncio.run(one.stop())
-    assert [devices[n].told for n in ("gate.shutter", "second.shutter", "laser.emission")] == [[False], [False], []]
+    assert [devices[n].told for n in ("gate.shutter", "second.shutter", "laser.emission")] == [[False]] * 3
     with pytest.raises(PicoError) as caught:
         executed(one, set_to("laser", "shutter", "open"))
     assert caught.value.exit_code == ExitCode.INTERRUPTED and caught.value.diagnostics[0].code == "stopped"
@@ -498,7 +504,7 @@ def test_light_is_not_let_out_by_what_waited_while_a_stop_came() -> None:
     assert True not in devices["laser.emission"].told
 
 
-def test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone() -> None:
+def test_a_stop_waits_for_what_is_under_way_and_then_ends_light() -> None:
     kinds = SETUP.type_of("cam").tunables
     cap = Tunable(datatype="choice", choices=("open", "closed"), mover="electronics")
     setup = with_type(with_type(SETUP, "cam", tunables={**kinds, "cap": cap}), "gate", tunables={
@@ -513,7 +519,7 @@ def test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone() -> 
         beginning.set()
         for _ in range(20):
             await asyncio.sleep(0)
-        order.append("emitted")
+        order.append("emitted" if on else "off")
         return on
 
     async def closes(wanted: bool) -> bool:
@@ -530,5 +536,83 @@ def test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone() -> 
         await task
 
     asyncio.run(started())
-    assert order == ["emitted", "closed"]
+    assert order[0] == "emitted" and sorted(order[1:]) == ["closed", "off"]
     assert devices["cam.cap"].told == [] == devices["gate.shutter"].told and devices["second.shutter"].told == [False]
+
+
+# what the guard ends beside a run
+
+
+def trip(*, stops_arms: bool = False) -> Trip:
+    cause = Cause(name="lock", kind="interlock", why="is not safe")
+    return Trip(causes=(cause,), lasers=("laser",), stops_arms=stops_arms)
+
+
+@pytest.mark.parametrize("stops_arms", [True, False])
+def test_what_is_measured_while_the_guard_ends_light_is_no_measurement_and_nothing_more_begins(
+    stops_arms: bool,
+) -> None:
+    one, devices = session()
+    measure = Operation(id="m", primitive="measure", component="cam", reason=Reason(kind="asked"))
+    measuring, ended = asyncio.Event(), asyncio.Event()
+
+    async def slow(*_: Any) -> Any:
+        measuring.set()
+        await ended.wait()
+        return {}
+
+    one._measured = slow
+
+    async def go() -> tuple[OperationResult, Any]:
+        task = asyncio.create_task(one.execute(measure, "run/m/1", lambda before: None))
+        await measuring.wait()
+        await one.trip(trip(stops_arms=stops_arms))
+        ended.set()
+        result = await task
+        with pytest.raises(PicoError) as caught:
+            await one.execute(set_to("laser", "shutter", "open"), "run/op2/1", lambda before: None)
+        return result, caught.value
+
+    result, refused = asyncio.run(go())
+    assert result.outcome == "failed" and result.error is not None
+    assert result.error.summary == "the guard ended light: lock (interlock) is not safe"
+    assert refused.diagnostics[0] == result.error and refused.exit_code == ExitCode.INTERRUPTED
+    assert devices["laser.shutter"].told == []
+
+
+@pytest.mark.parametrize("stops_arms", [True, False])
+def test_an_arm_on_its_way_stops_if_the_cause_concerns_arms_and_else_comes_to_its_safe_end(stops_arms: bool) -> None:
+    one, _ = session()
+    stopped = list[str]()
+
+    async def stops() -> None:
+        stopped.append("stop")
+
+    one._bench.arms["arm1"] = SimpleNamespace(stop=stops)  # type: ignore[assignment]
+    one._ways["arm1"] = SimpleNamespace()  # type: ignore[assignment]
+    asyncio.run(one.trip(trip(stops_arms=stops_arms)))
+    assert stopped == (["stop"] if stops_arms else []) and one._halting and one._stopped is stops_arms
+    assert one.moving() == (one._bench.arms["arm1"],)
+
+
+def test_a_trip_in_a_run_ends_the_light_of_a_laser_without_a_shutter(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(guarding, "EVERY", 0.0)
+    door, kept = Input(), list[str]()
+    one, devices = session(door, "door")
+    bare = Device(True)
+    one._bench.tunables["bare.emission"] = Emitting(bare)  # type: ignore[arg-type]
+
+    async def keep(why: str) -> None:
+        kept.append(why)
+
+    one._darken = keep
+
+    async def slow(wanted: bool) -> bool:
+        door.state = SafetyState(safe=False, age=0.0)
+        for _ in range(50):
+            await asyncio.sleep(0)
+        return wanted
+
+    devices["laser.emission"].emit = slow  # type: ignore[method-assign]
+    executed(one, set_to("laser", "emission", True))
+    assert bare.told[0] is False and not bare.is_ and kept == ["door (door) is not safe"]

@@ -1,0 +1,73 @@
+"""Brings a bench into a state and keeps it there, in a process of its own, for `benchmarks/safety_chain.py`. Says a
+line once it is there."""
+
+from __future__ import annotations
+
+import itertools
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT))
+
+from pico.bench.bench import Bench  # noqa: E402
+from pico.diagnostics import PicoError  # noqa: E402
+from pico.model.plan import Plan  # noqa: E402
+from pico.model.trace.unattended import Terms  # noqa: E402
+
+PLACES = ((660, 420), (660, 300))
+"""Where the lens is carried to and fro [mm]."""
+
+
+class Act:
+    """One state of one bench."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench, self._said = bench, False
+
+    def there(self) -> None:
+        """Say that the state is reached, once."""
+        if not self._said:
+            self._said = True
+            print("there", flush=True)
+
+    def run(self, plan: Plan, kind: str = "operation_started") -> None:
+        """Run a plan; the state is reached with the first event of this kind."""
+        for event in self.bench.run(plan):
+            if event.kind == kind:
+                self.there()
+
+    def measuring(self) -> None:
+        """Take pictures with the camera in the beam, one after the other."""
+        while True:
+            self.run(self.bench.single("camera", "measure", measurable="image"))
+
+    def moving(self) -> None:
+        """Carry the lens to and fro."""
+        for x, y in itertools.cycle(PLACES):
+            self.run(self.bench.single("lens", "move", x=x, y=y), "operation_progress")
+
+    def optimizing(self) -> None:
+        """Seek the exposure at which the camera is brightest, again and again."""
+        while True:
+            goals = self.bench.goals
+            self.run(goals.plan(goals.chosen(("bright",))), "operation_progress")
+
+    def unattended(self) -> None:
+        """Measure where nobody is there, held to the terms of a recipe."""
+        terms = Terms(
+            recipe="night@20261124T230000Z-abcdef", laser_class="2", until="2099-01-01T00:00:00Z", every=600.0
+        )
+        self.bench.wait(self.bench.edge.hold(terms))
+        self.measuring()
+
+
+def main(lab: str, state: str) -> None:
+    """Keep a bench in a state until something ends that, or this process."""
+    with Bench.open(Path(lab), backend="hardware") as bench:
+        act: Callable[[], None] = getattr(Act(bench), state)
+        try:
+            act()
+        except PicoError as exc:
+            print(exc, file=sys.stderr)

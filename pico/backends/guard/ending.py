@@ -1,0 +1,77 @@
+"""Ending light: every shutter closes and emission is switched off, all at once, and what each laser then reads."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Awaitable, Iterable, Mapping
+from dataclasses import dataclass, field
+
+from pico.diagnostics import PicoError
+from pico.drivers.protocols import Laser, Shutter
+from pico.model.record import record
+
+PATIENCE = 2.5
+"""How long one device may take to end its light [s]; the others do not wait for it."""
+
+
+@dataclass(frozen=True, eq=False)
+class Light:
+    """A laser with the devices that end its light. `emission`: the address and the device that switch it, if one does.
+    `shutters`: those that close its beam, by address."""
+
+    laser: str
+    emission: tuple[str, Laser] | None = None
+    shutters: Mapping[str, Shutter] = field(default_factory=dict)
+
+
+@record
+class Closing:
+    """What became of one device that was to end light: its `address`, whether it reads dark now, and what is `wrong`
+    with it, '' for nothing."""
+
+    address: str
+    dark: bool
+    wrong: str = ""
+
+
+@record
+class LightEnd:
+    """How the light of one laser was ended: by which devices, and whether it is proven dark now."""
+
+    laser: str
+    closings: tuple[Closing, ...]
+
+    @property
+    def is_dark(self) -> bool:
+        """Whether it is proven that no light leaves it."""
+        return any(one.dark for one in self.closings)
+
+    @property
+    def wrong(self) -> str:
+        """What could not be closed, in words."""
+        return "; ".join(f"{one.address}: {one.wrong}" for one in self.closings if one.wrong)
+
+
+async def end_light(lights: Iterable[Light]) -> tuple[LightEnd, ...]:
+    """Close the shutters of these lasers and switch off their emission, at once, and return what became of each; waits
+    for no device longer than PATIENCE."""
+    return tuple(await asyncio.gather(*(_end(light) for light in lights)))
+
+
+async def _end(light: Light) -> LightEnd:
+    jobs = [_closed(address, shutter.open(False)) for address, shutter in light.shutters.items()]
+    if light.emission is not None:
+        address, laser = light.emission
+        jobs.append(_closed(address, laser.emit(False)))
+    return LightEnd(laser=light.laser, closings=tuple(await asyncio.gather(*jobs)))
+
+
+async def _closed(address: str, work: Awaitable[bool]) -> Closing:
+    try:
+        on = await asyncio.wait_for(work, PATIENCE)
+    except TimeoutError:
+        return Closing(address=address, dark=False, wrong=f"it did not answer within {PATIENCE:g} s")
+    except PicoError as exc:
+        return Closing(address=address, dark=False, wrong=exc.diagnostics[0].summary)
+    wrong = "it still reads open" if address.endswith(".shutter") else "it still reads on"
+    return Closing(address=address, dark=not on, wrong=wrong if on else "")

@@ -1,0 +1,178 @@
+"""What the guard of a bench last did, as its state file has it: who guards which lasers, what ended their light and
+why, and where a guard was killed or frozen while a laser emitted. Whoever opens the bench next reads it."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from pico.backends.guard.ending import Closing, LightEnd
+from pico.base import clock
+from pico.base.state_files import GUARD
+from pico.diagnostics import Diagnostic, warning
+from pico.model.record import as_json, record
+from pico.places.bench import BenchPlace
+
+CODE = "guard"
+"""The code of all that is said of the guard."""
+GUARDED, STOPPED = "the guard", "a stop"
+"""By whom light was ended."""
+
+
+@record
+class Watch:
+    """Who guards lasers that may emit: the process, since when (ISO 8601, UTC), which lasers. `closes_itself`: those
+    whose shutter closes by itself once the guard is gone."""
+
+    pid: int
+    since: str
+    lasers: tuple[str, ...]
+    closes_itself: tuple[str, ...] = ()
+    boot: str = ""
+
+
+@record
+class Ended:
+    """That light was ended: when (ISO 8601, UTC), why, and what became of each laser. `by`: the guard, or a person's
+    stop."""
+
+    at: str
+    why: str
+    ends: tuple[LightEnd, ...]
+    by: str = GUARDED
+
+
+@record
+class Frozen:
+    """That the guard's process stood still while lasers might emit: until when, and for how long [s]."""
+
+    until: str
+    seconds: float
+    lasers: tuple[str, ...]
+
+
+@record
+class Note:
+    """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark."""
+
+    schema: str = GUARD.schema
+    watch: Watch | None = None
+    ended: Ended | None = None
+    killed: Watch | None = None
+    frozen: Frozen | None = None
+
+
+def read(place: BenchPlace) -> Note:
+    """Return what is kept of the guard of a bench; a watch whose process is gone counts as killed, but on an emulated
+    bench, where light ended with that process."""
+    note = GUARD.read(GUARD.path(place.folder), _note) or Note()
+    if note.watch is not None and not _alive(note.watch):
+        note = replace(note, killed=None if place.name == "emulated" else note.watch, watch=None)
+    return note
+
+
+def write(place: BenchPlace, note: Note) -> None:
+    """Keep it; raises PicoError if it can't be written."""
+    GUARD.write(GUARD.path(place.folder), as_json(note), what="what the guard did can't be kept", durable=False)
+
+
+def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
+    """Return that this process guards lasers from now on."""
+    return Watch(pid=os.getpid(), since=clock.now(), lasers=lasers, closes_itself=closes_itself, boot=_boot())
+
+
+def notices(note: Note) -> tuple[Diagnostic, ...]:
+    """Return what a person must know of the guard, the most urgent first; nothing while all is as it should be."""
+    found = list[Diagnostic]()
+    if note.ended is not None:
+        found += [_left_lit(note.ended, one) for one in note.ended.ends if not one.is_dark]
+        dark = [one for one in note.ended.ends if one.is_dark]
+        if dark and note.ended.by == GUARDED:
+            found.append(_dark(note.ended, dark))
+    if note.killed is not None:
+        found.append(_killed(note.killed))
+    if note.frozen is not None:
+        text = (
+            f"guard: its process stood still for {note.frozen.seconds:.1f} s until {_local(note.frozen.until)}, while "
+        )
+        text += f"{', '.join(note.frozen.lasers)} could emit unwatched"
+        found.append(warning(CODE, text, hint="find out what froze this computer; `pico laser` shows the lasers"))
+    return tuple(found)
+
+
+def _dark(ended: Ended, ends: Sequence[LightEnd]) -> Diagnostic:
+    names = ", ".join(one.laser for one in ends)
+    closed = ", ".join(c.address for one in ends for c in one.closings if c.dark)
+    wrong = "; ".join(one.wrong for one in ends if one.wrong)
+    text = f"guard: light of {names} was ended at {_local(ended.at)} because {ended.why}"
+    detail = f"dark now: {closed}" + (f"; not reached: {wrong}" if wrong else "")
+    return warning(CODE, text, detail=detail, hint="make the table safe, then let light out anew")
+
+
+def _left_lit(ended: Ended, one: LightEnd) -> Diagnostic:
+    who = "guard" if ended.by == GUARDED else "stop"
+    why = one.wrong or "no device of this bench closes a shutter of it or switches it off"
+    text = (
+        f"{who}: {one.laser} MAY STILL EMIT: at {_local(ended.at)} its light was to end because {ended.why}, and could "
+    )
+    hint = f"switch {one.laser} off at its own key; `pico stop --now` then tries again"
+    return warning(CODE, f"{text}not be ended: {why}", hint=hint)
+
+
+def _killed(watch: Watch) -> Diagnostic:
+    names = ", ".join(watch.lasers)
+    text = f"guard: the process that guarded {names} since {_local(watch.since)} (pid {watch.pid}) has ended"
+    left = [name for name in watch.lasers if name not in watch.closes_itself]
+    if left:
+        hint = "`pico stop --now` ends light; `pico laser` shows what each laser reads now"
+        return warning(CODE, f"{text}; {', '.join(left)} may have emitted unwatched since", hint=hint)
+    return warning(CODE, f"{text}; their shutters close by themselves", hint="`pico laser` shows the lasers")
+
+
+def _local(text: str) -> str:
+    return f"{clock.parse(text).astimezone():%H:%M:%S}"
+
+
+def _alive(watch: Watch) -> bool:
+    if watch.boot != _boot():
+        return False
+    try:
+        os.kill(watch.pid, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _boot() -> str:
+    try:
+        return Path("/proc/sys/kernel/random/boot_id").read_text(encoding="ascii").strip()
+    except OSError:
+        return ""
+
+
+def _note(document: Mapping[str, Any]) -> Note:
+    def each(key: str, make: Any) -> Any:
+        return make(document[key]) if document.get(key) is not None else None
+
+    return Note(
+        watch=each("watch", _watch), ended=each("ended", _ended), killed=each("killed", _watch),
+        frozen=each("frozen", lambda d: Frozen(**{**d, "lasers": tuple(d["lasers"])})),
+    )  # fmt: skip
+
+
+def _watch(document: Mapping[str, Any]) -> Watch:
+    lists = {key: tuple(document.get(key, ())) for key in ("lasers", "closes_itself")}
+    return Watch(**{**document, **lists})
+
+
+def _ended(document: Mapping[str, Any]) -> Ended:
+    ends = tuple(
+        LightEnd(laser=one["laser"], closings=tuple(Closing(**closing) for closing in one["closings"]))
+        for one in document["ends"]
+    )
+    return Ended(at=document["at"], why=document["why"], by=document["by"], ends=ends)

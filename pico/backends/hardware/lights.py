@@ -1,0 +1,171 @@
+"""The lasers of a real bench with the devices that end their light, and the guard that watches them."""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from dataclasses import replace
+
+from pico.backends.guard import note as notes
+from pico.backends.guard.ending import Light, LightEnd, end_light
+from pico.backends.guard.note import Ended, Frozen, Note
+from pico.backends.guard.verdict import Trip
+from pico.backends.guard.watch import Guard, Told, Watched
+from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.tunables import Emitting, Shut, word
+from pico.base import clock
+from pico.diagnostics import PicoError
+from pico.drivers.protocols import Arm, DeadMan, Laser, Shutter
+from pico.model.quantities import Value
+from pico.model.setup import Setup
+from pico.optics.audit.lasers import laser_class
+from pico.places.bench import BenchPlace
+
+
+def lasers_of(setup: Setup) -> tuple[str, ...]:
+    """Return the lasers of a bench, by name."""
+    return tuple(n for n in sorted(setup.lab.inventory) if setup.type_of(n).optics.element == "source")
+
+
+class Lights(Told):
+    """What ends light on the bench at `place`, through `bench`'s devices, connected or not. Each method may be called
+    from any thread."""
+
+    def __init__(self, setup: Setup, place: BenchPlace, bench: Instruments) -> None:
+        self._setup, self._place, self._bench = setup, place, bench
+        tunables = bench.tunables
+        self.emissions: dict[str, Laser] = {a: t.instrument for a, t in tunables.items() if isinstance(t, Emitting)}
+        self.shutters: dict[str, Shutter] = {a: t.instrument for a, t in tunables.items() if isinstance(t, Shut)}
+        self.gates: Mapping[str, str] = {}
+        """The shutter on the table that stands in the beam of a laser, as the bench was seen last."""
+        self.listening: Callable[[Ended, Trip | None], None] | None = None
+        """Who writes the journal."""
+        self.session: Callable[[Trip], None] | None = None
+        """Who has the bench: it hears of a trip before anything is closed."""
+        self.moving: Callable[[], tuple[Arm, ...]] = tuple
+        self._lock = threading.Lock()
+        self._guard: Guard | None = None
+        self._outcome: object = None
+        self._dark = False  # whether all lasers were dark: what is let out then is let out anew
+
+    def lights(self) -> tuple[Light, ...]:
+        """Return each laser with the devices that end its light; a laser that none ends is left out."""
+        found = []
+        for name in lasers_of(self._setup):
+            emission = self.emissions.get(f"{name}.emission")
+            own = [f"{name}.shutter", f"{self.gates.get(name, '')}.shutter"]
+            shutters = {address: self.shutters[address] for address in own if address in self.shutters}
+            if emission is not None or shutters:
+                found.append(Light(name, (f"{name}.emission", emission) if emission else None, shutters))
+        return tuple(found)
+
+    @property
+    def guard(self) -> Guard | None:
+        """The guard at work, None if the bench has no laser that a device could shut."""
+        return self._guard
+
+    @property
+    def is_dark(self) -> bool:
+        """Whether all lasers are proven dark that a device could make dark."""
+        return not self.lights() or (self._guard is not None and self._guard.is_dark)
+
+    def values(self) -> dict[str, Value]:
+        """Return what lasers and shutters read, by address, as the guard heard it last."""
+        heard = self._guard.heard() if self._guard is not None else {}
+        return {a: word(on) if a in self.shutters else on for a, on in heard.items()}
+
+    def watch(self) -> None:
+        """Start the guard, once the devices are connected; a bench without lasers needs none."""
+        lights = self.lights()
+        if not lights or self._guard is not None:
+            return
+        with self._lock, suppress(PicoError):  # a note that can't be written must not keep the guard from its work
+            before = notes.read(self._place)
+            if before.killed is not None:  # told until light is let out anew
+                notes.write(self._place, before)
+        watched = Watched(
+            lights=self.lights, shutters=self.shutters, emissions=self.emissions, inputs=self._bench.inputs,
+            classes={light.laser: laser_class(self._setup, light.laser, {})[0] for light in lights},
+            presence_ends=self._setup.lab.policy.presence_ends, arms=self._moving,
+        )  # fmt: skip
+        self._guard = Guard(watched, self)
+        self._guard.start()
+
+    def _moving(self) -> tuple[Arm, ...]:
+        return self.moving()
+
+    def close(self) -> None:
+        """End the guard. That it watched a laser that may still emit is told by who comes next, unless another process
+        guards it by then."""
+        guard, self._guard = self._guard, None
+        if guard is not None:
+            guard.close()
+            if guard.is_dark:
+                self._kept(lambda note: replace(note, watch=None))
+
+    async def end(self, why: str, by: str) -> Ended:
+        """End all light now, because of `why`; return what became of each laser, and keep that."""
+        ends = list(await end_light((*self.lights(), *self._loose())))
+        known = {one.laser for one in ends}
+        ends += [LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known]
+        ended = Ended(at=clock.now(), why=why, by=by, ends=tuple(one for one in ends if one.laser))
+        if ended.ends:
+            await asyncio.to_thread(self._tell, ended, None)
+        return ended
+
+    def _tell(self, ended: Ended, trip: Trip | None) -> None:
+        self._kept(lambda note: replace(note, ended=ended))
+        if self.listening is not None:
+            self.listening(ended, trip)
+
+    async def tripped(self, why: str) -> None:
+        """Keep that an operation ended light because of `why`, if a laser was lit."""
+        if self._guard is not None and self._guard.lit:
+            await self.end(why, notes.GUARDED)
+
+    def _loose(self) -> tuple[Light, ...]:
+        used = {address for light in self.lights() for address in light.shutters}
+        rest = {address: one for address, one in self.shutters.items() if address not in used}
+        return (Light("", None, rest),) if rest else ()
+
+    # what the guard tells
+
+    def trips(self, trip: Trip) -> None:
+        if self.session is not None:
+            self.session(trip)
+
+    def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
+        ended = Ended(at=clock.now(), why=trip.said, ends=ends)
+        outcome = [(end.laser, end.is_dark) for end in ends], [cause.name for cause in trip.causes]
+        if outcome == self._outcome and not all(end.is_dark for end in ends):
+            return  # it was tried again, in vain: that is told already
+        self._outcome = outcome
+        self._tell(ended, trip)
+
+    def lit(self, lasers: tuple[str, ...]) -> None:
+        def changed(note: Note) -> Note:
+            if not lasers:
+                return replace(note, watch=None)
+            itself = tuple(light.laser for light in self.lights() if light.laser in lasers and closes_itself(light))
+            watch = notes.watching(lasers, itself)
+            return Note(watch=watch) if self._dark else replace(note, watch=watch)
+
+        self._kept(changed)
+        self._dark = not lasers
+
+    def froze(self, seconds: float, lasers: tuple[str, ...]) -> None:
+        self._kept(lambda note: replace(note, frozen=Frozen(until=clock.now(), seconds=seconds, lasers=lasers)))
+
+    def _kept(self, change: Callable[[Note], Note]) -> None:
+        with self._lock, suppress(PicoError):  # a full disk keeps no light on
+            before = notes.read(self._place)
+            if (after := change(before)) != before:
+                notes.write(self._place, after)
+
+
+def closes_itself(light: Light) -> bool:
+    """Return whether a dead-man ends the light of a laser once nothing refreshes it."""
+    devices = (*light.shutters.values(), *((light.emission[1],) if light.emission else ()))
+    return any(isinstance(one, DeadMan) and one.dead_man is not None for one in devices)

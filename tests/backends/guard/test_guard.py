@@ -1,0 +1,174 @@
+"""The guard against boxes of switches at the wire: emission is measured at the emulated lasers."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from boxes import INPUTS, guarded, until
+
+from pico.backends.guard.hearing import SILENT, Awake, Hearing
+from pico.backends.guard.note import Note, notices, read, watching, write
+from pico.diagnostics import PicoError
+
+BAR, LOST = 0.5, 1.0
+"""Within which light ends [s]: of an unsafe input, and of one whose link was lost."""
+
+
+@pytest.mark.parametrize("name", [name for name, kind in INPUTS.items() if kind != "curtain"])
+def test_an_unsafe_input_ends_the_light_of_every_laser_while_nothing_runs(tmp_path: Path, name: str) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.put(name, False)
+        rig.ends_within(BAR)
+        until(lambda: read(rig.place).ended is not None)
+        assert not rig.lasers.is_("laser_shutter") and not rig.lasers.is_("laser_head"), "both are switched"
+        said = notices(read(rig.place))
+        assert len(said) == 1 and f"because {name}" in said[0].summary
+        assert "light of bare, laser was ended at" in said[0].summary
+
+
+def test_a_link_that_falls_silent_ends_light(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.frozen = True
+        rig.ends_within(LOST)
+        until(lambda: read(rig.place).ended is not None)
+        assert "has not answered" in notices(read(rig.place))[0].summary
+
+
+def test_a_box_that_hangs_up_ends_light(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.served.close()
+        rig.ends_within(LOST)
+
+
+def test_what_could_not_be_closed_is_told_and_closed_once_it_can(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.lasers.frozen = True
+        until(lambda: read(rig.place).ended is not None, 6.0)
+        assert any("MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+        assert rig.lit() == {"laser": True, "bare": True}
+        rig.lasers.frozen = False
+        rig.ends_within(5.0)
+
+
+@pytest.mark.parametrize(
+    ("policy", "ends"), [(None, set()), ("3R", {"laser", "bare"}), ("3B", {"laser"}), ("4", set())]
+)
+def test_a_curtain_ends_light_only_of_the_classes_that_the_policy_names(
+    tmp_path: Path, policy: str | None, ends: set[str]
+) -> None:
+    with guarded(tmp_path, presence_ends=policy) as rig:  # laser may be set to class 3B, bare is of class 3R
+        rig.inputs.put("veil", False)
+        if ends:
+            rig.ends_within(BAR, *ends)
+        time.sleep(0.3)
+        assert {name for name, lit in rig.lit().items() if not lit} == ends
+
+
+def test_light_that_nothing_ends_stays_and_nothing_is_written_twice(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        assert rig.stays_lit()
+        watch = read(rig.place).watch
+        assert watch is not None and watch.lasers == ("bare", "laser") and notices(read(rig.place)) == ()
+        assert rig.stays_lit(0.2) and read(rig.place).watch == watch
+
+
+def test_light_let_out_anew_forgets_what_was_told_and_is_ended_again(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.inputs.put("lock", False)
+        rig.ends_within(BAR)
+        until(lambda: bool(notices(read(rig.place))) and read(rig.place).watch is None)
+        rig.inputs.put("lock", True)
+        time.sleep(2.2)  # inputs are not asked meanwhile, which is not their fault
+        rig.lasers.put("bare_head", True)
+        assert rig.stays_lit(0.3, "bare")
+        until(lambda: read(rig.place).watch is not None)
+        assert notices(read(rig.place)) == ()
+        rig.inputs.put("lock", False)
+        rig.ends_within(BAR)
+
+
+def test_inputs_are_not_asked_while_all_lasers_are_dark(tmp_path: Path) -> None:
+    with guarded(tmp_path) as rig:
+        rig.lasers.put("bare_head", False)
+        rig.lasers.put("laser_shutter", False)
+        until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ())
+        rig.inputs.put("door_box", False)
+        time.sleep(0.3)
+        assert rig.lasers.is_("laser_head") and read(rig.place).ended is None, "behind its closed shutter it may be on"
+        rig.lasers.put("laser_shutter", True)
+        rig.ends_within(BAR)
+
+
+def test_a_stop_ends_light_without_any_device_but_lasers_and_shutters(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        rig.inputs.frozen = True
+        ended = asyncio.run(rig.lights.end("a person stopped the bench", "a stop"))
+        assert rig.lit() == {"laser": False, "bare": False}
+        assert {end.laser: end.is_dark for end in ended.ends} == {"laser": True, "bare": True, "second": False}
+        assert any("second MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+
+
+def test_a_guard_that_was_killed_is_told_by_who_comes_next(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        gone = replace(watching(("bare", "laser"), ("laser",)), pid=2**22 - 1)
+        write(rig.place, Note(watch=gone))
+        (said,) = notices(read(rig.place))
+        assert "has ended" in said.summary and "bare may have emitted unwatched" in said.summary
+        asyncio.run(rig.lights._bench.connect())
+        rig.lights.watch()
+        until(lambda: read(rig.place).watch is not None)
+        assert "has ended" in notices(read(rig.place))[0].summary, "it is told until light is let out anew"
+        rig.lasers.put("bare_head", False)
+        rig.lasers.put("laser_head", False)
+        until(lambda: read(rig.place).watch is None)
+        assert notices(read(rig.place)) != ()
+        rig.lasers.put("bare_head", True)
+        until(lambda: read(rig.place).watch is not None)
+        assert notices(read(rig.place)) == ()
+
+
+def test_a_dead_man_stays_open_while_it_is_guarded_and_closes_once_the_guard_is_gone(tmp_path: Path) -> None:
+    with guarded(tmp_path, watchdog=0.5) as rig:
+        assert asyncio.run(rig.lights.shutters["laser.shutter"].open(True))
+        assert rig.stays_lit(1.2)
+        watch = read(rig.place).watch
+        assert watch is not None and watch.closes_itself == ("laser",)
+        assert rig.lights.guard is not None
+        rig.lights.guard.close()
+        assert rig.ends_within(1.0, "laser") > 0.2, "by the box alone"
+        assert rig.lasers.is_("laser_head") and rig.lasers.is_("bare_head"), "what has no dead-man stays on"
+
+
+def test_a_box_without_a_dead_man_lets_no_light_out_that_was_to_have_one(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False, watchdog=0.5) as rig:
+        rig.lasers.put("laser_shutter", False)
+        rig.lasers.forgets_dead_men = True
+        with pytest.raises(PicoError, match="has no dead-man"):
+            asyncio.run(rig.lights.shutters["laser.shutter"].open(True))
+        assert not rig.lasers.is_("laser_shutter")
+
+
+class Stepped:
+    """A clock that a test sets."""
+
+    at = 100.0
+
+    def __call__(self) -> float:
+        return self.at
+
+
+def test_a_guard_that_stood_still_blames_no_device_and_one_that_is_starved_notices_a_lost_link() -> None:
+    clock = Stepped()
+    awake = Awake(clock)
+    hearing = Hearing(since=awake.now())
+    hearing.answered("a.shutter", True, awake.now())
+    clock.at += 3600.0
+    assert hearing.silence("a.shutter", awake.now(), SILENT) == ""
+    for _ in range(3):  # each look half a second after the one before
+        clock.at += 0.5
+        silent = hearing.silence("a.shutter", awake.now(), SILENT)
+    assert "has not answered" in silent

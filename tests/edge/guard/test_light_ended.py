@@ -1,0 +1,66 @@
+"""Light that ends beside any run stands in the journal, in a run of its own or in the one under way."""
+
+from __future__ import annotations
+
+import asyncio
+from contextlib import closing
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+from bench_at import bench_at
+from laser_lab import bench
+
+from pico.backends.device import Capabilities
+from pico.backends.guard.ending import Closing, LightEnd
+from pico.backends.guard.note import Ended
+from pico.base.state_files import JOURNAL
+from pico.edge.guard.journaling import record_ended
+from pico.runs.journal import Journal
+
+SETUP = bench()
+ENDS = (
+    LightEnd(laser="laser", closings=(Closing(address="laser.shutter", dark=True),)),
+    LightEnd(laser="bare", closings=(Closing(address="bare.emission", dark=False, wrong="it still reads on"),)),
+    LightEnd(laser="second", closings=()),
+)
+
+
+async def _describe() -> Capabilities:
+    return Capabilities(
+        name="hardware", fidelity="physics", evidence="hardware", lab_digest=SETUP.digest(),
+        primitives=frozenset(), robots=(),
+    )  # fmt: skip
+
+
+DEVICE: Any = SimpleNamespace(describe=_describe)
+
+
+@pytest.mark.parametrize("within", [False, True])
+def test_each_device_is_an_operation_of_the_run_under_way_or_of_one_of_its_own(tmp_path: Path, within: bool) -> None:
+    path = JOURNAL.path(bench_at(tmp_path).folder)
+    ended = Ended(at="2026-11-24T12:00:00Z", why="door_box (door) is not safe", ends=ENDS)
+    with closing(Journal(path)) as journal:
+        if within:
+            journal.begin_run("r1", "sha256:p", "ada")
+        record_ended(SETUP, DEVICE, path, ended, "r1" if within else None, 0)
+        (run,) = journal.runs()
+        assert (run.holder, run.outcome) == (("ada", None) if within else ("the guard", "failed"))
+        done = {r.component: (r.kind, r.data.get("error", {}).get("summary")) for r in journal.records(run=run.run)}
+        assert done == {"laser": ("done", None), "bare": ("failed", "bare.emission: it still reads on")}
+        assert journal.unsettled() == ()
+        intents = [r.data["reason"]["text"] for r in journal.records(run=run.run) if r.kind == "intent"]
+        assert set(intents) == {"the guard ended light: door_box (door) is not safe"}
+
+
+def test_it_is_written_from_any_loop_that_runs(tmp_path: Path) -> None:
+    path = JOURNAL.path(bench_at(tmp_path).folder)
+    ended = Ended(at="2026-11-24T12:00:00Z", why="a person stopped the bench", ends=ENDS[:1], by="a stop")
+
+    async def within() -> None:
+        await asyncio.to_thread(record_ended, SETUP, DEVICE, path, ended, None, 0)
+
+    asyncio.run(within())
+    with closing(Journal(path)) as journal:
+        assert [(run.holder, run.outcome) for run in journal.runs()] == [("a stop", "done")]
