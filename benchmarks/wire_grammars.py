@@ -169,9 +169,10 @@ def zaber(counts: float) -> Callable[[bytes, bytes, Any], Allowed]:
     byte is 0. Zaber's ASCII Protocol Manual, "Message checksum". `counts` of a mm."""
 
     def says(sent: bytes, true: bytes, _: Any) -> Allowed:
-        line = _line(sent, b"\r\n")
+        line = _line(sent)
         if line is None or not line.startswith("@"):
             return NOTHING
+        line = line.rstrip(" \r")  # a blank at its end, or a line feed alone, may pass
         body, colon, checksum = line[1:].partition(":")
         if colon and (
             len(checksum) != 2

@@ -39,9 +39,13 @@ class _Link:
         """Send a command that has no reply."""
         self.meter.write(command)
 
-    def failure(self) -> str:
-        """Return the oldest entry of the error queue, and empty it."""
-        return queue_of(self.ask)
+    def failure(self, *, after_reply: bool = False) -> str:
+        """Return the oldest entry of the error queue, and empty it; `after_reply`: see `pico.drivers.visa.Visa`."""
+        return queue_of(self.ask, self._ask_at_once if after_reply else None)
+
+    def _ask_at_once(self, question: str) -> str:
+        said = str(self.meter.ask(question)).strip()
+        return said or str(self.meter.read()).strip()
 
     def identity(self) -> Identity:
         """Return who answers to `*IDN?`."""

@@ -90,7 +90,7 @@ class Questions(Protocol):
 
     def tell(self, command: str) -> None: ...
 
-    def failure(self) -> str: ...
+    def failure(self, *, after_reply: bool = False) -> str: ...
 
 
 def metered(link: Questions, entry: DeviceEntry, wavelength: float | None) -> Readout:
@@ -104,7 +104,7 @@ def metered(link: Questions, entry: DeviceEntry, wavelength: float | None) -> Re
         settings["wavelength"] = found.value
     raw = link.ask("MEAS:POW?")
     try:
-        queued = link.failure() if entry.settings.get("error_queue", True) else ""
+        queued = link.failure(after_reply=True) if entry.settings.get("error_queue", True) else ""
     except ValueError as exc:
         return unknown("W", "garbled", raw, f"its error queue can't be read: {exc}")
     found = judging.number(raw, "W", limits=entry.limits.get("power"), failure=queued)

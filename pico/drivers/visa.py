@@ -92,10 +92,10 @@ def backend_of(entry: DeviceEntry) -> str:
     return "" if said == "@ivi" else said  # PyVISA's own name for the vendor's library
 
 
-def queue_of(ask: Callable[[str], str]) -> str:
+def queue_of(ask: Callable[[str], str], first_ask: Callable[[str], str] | None = None) -> str:
     """Return the oldest entry of the error queue that `ask` reaches, and empty the queue; '' if it was empty. Raises
-    ValueError for what is no entry."""
-    first = last = judging.failure(ask("SYST:ERR?"))
+    ValueError for what is no entry. `first_ask`: how the first entry is asked for, if otherwise."""
+    first = last = judging.failure((first_ask or ask)("SYST:ERR?"))
     for _ in range(_MOST_ERRORS):
         if not last:
             break
@@ -129,10 +129,15 @@ class Visa:
         if said := self.failure():
             raise ValueError(f"it answers `{command}` by {said[:60]}")
 
-    def failure(self) -> str:
+    def failure(self, *, after_reply: bool = False) -> str:
         """Return the oldest entry of the error queue, and empty the queue; '' if it was empty already. Raises
-        ValueError for what is no entry."""
-        return queue_of(self.ask)
+        ValueError for what is no entry. `after_reply`: what is left of the reply before it, whose line was broken, is
+        taken for an entry, and is none."""
+        return queue_of(self.ask, self._ask_at_once if after_reply else None)
+
+    def _ask_at_once(self, question: str) -> str:
+        said = str(self.resource.query(question)).strip()
+        return said or str(self.resource.read()).strip()  # some end a line with a blank after the line feed
 
     def identity(self) -> Identity:
         """Return who answers to `*IDN?`."""

@@ -41,6 +41,7 @@ _NO_ZERO = ("WR", "WH")
 """It has no reference position, or was not homed."""
 _POLL = 0.02
 _FLAG = re.compile("[FWN][A-Z]")
+_WARNING = re.compile(r"--|[A-Z][A-Z0-9]")
 _REACHED = 2.0
 """How many counts from where it was sent a stage may come to rest."""
 
@@ -89,6 +90,10 @@ class Stage:
             raw = f"{reply.status} {reply.warning_flag} {reply.data}"
             if set(_NO_ZERO) & self._flags(link, reply):
                 return unknown(self._unit, "not-homed", raw)
+            again = self._asked(link, "get pos")
+            if reply.status == again.status == "IDLE" and reply.data != again.data:
+                why = f"at rest it says {reply.data[:20]}, then {again.data[:20]}"
+                return unknown(self._unit, "garbled", raw, why)
             return Readout(unit=self._unit, value=self._position(reply), raw=raw)
 
         return await self._line.ask("tell where it is", read)
@@ -138,6 +143,11 @@ class Stage:
             self._line.require_running(stops, what)
             at = self._position(reply)
             if reply.status != "BUSY":
+                again = await self._line.ask(what, lambda link: self._asked(link, "get pos"))
+                if (
+                    again.data != reply.data
+                ):  # one of the two was damaged on the way, and no checksum of it is asked for
+                    continue
                 flags = await self._line.ask(what, lambda link, reply=reply: self._flags(link, reply))  # type: ignore[misc]
                 for flag in sorted(flags & _INTERRUPTED.keys()):
                     text = f"{self.name} reports: {_INTERRUPTED[flag]} (Zaber {flag}): {what}"
@@ -173,6 +183,8 @@ class Stage:
             text = f"{self.name} reports: {_FAULTS[reply.warning_flag]} (Zaber {reply.warning_flag})"
             hint = "look whether anything keeps it from moving, then home it"
             raise PicoError(error("device-fault", text, hint=hint, address=self.name))
+        if reply.status not in ("IDLE", "BUSY") or not _WARNING.fullmatch(reply.warning_flag):
+            raise ValueError(f"status {reply.status[:20]!r}, warning {reply.warning_flag[:20]!r}")
         return reply
 
     def _identity(self, link: Connection) -> Identity:

@@ -311,3 +311,18 @@ def test_an_earlier_answer_of_a_contact_is_none(kind: str) -> None:
         closed = asked(DeviceEntry(driver=kind, address={**address, "channel": 4, "relay": 1}), go)
     wanted = [True, None, None, True, False]
     assert closed == (wanted if kind == "scpi.safety" else [None if c is None else not c for c in wanted])
+
+
+@pytest.mark.parametrize(("reply", "value"), [
+    ("0.0012\n0", None), ("1.0E-1\n0", None), ("0.0012\n394", None), ("0.0012", 0.0012), ("0.0012\n", 0.0012),
+    ("0.0012\n\r", 0.0012),
+])  # fmt: skip
+def test_a_number_whose_line_was_broken_is_none(reply: str, value: float | None) -> None:
+    class Broken(Scripted):
+        def heard(self, data: bytes) -> bytes:
+            said = super().heard(data)
+            return said.removesuffix(b"\n") if value is None and b"POW" in data else said
+
+    with scripted(Broken({**METER, "MEAS:POW?": reply})) as address:
+        found = asked(DeviceEntry(driver="scpi.meter", address=address), lambda one: one.power())
+    assert found.value == value and found.unknown in ((None,) if value else ("garbled", "instrument-error"))

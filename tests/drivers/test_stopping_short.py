@@ -674,7 +674,7 @@ class Metered:
             self.replies.pop(question, None)
         return reply
 
-    def failure(self) -> str:
+    def failure(self, *, after_reply: bool = False) -> str:
         return visa.queue_of(self.ask)
 
 
