@@ -4,24 +4,21 @@ from __future__ import annotations
 
 from pico.model.instruments.conversion import Conversion, conversion
 from pico.model.instruments.declaration import Declaration
+from pico.model.instruments.kinds import kind_of
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wired
 
-USUAL = {"shutter": "shutter", "laser": "emission", "lamp": "illumination", "power meter": "power"}
-"""The tunable or measurable that a kind of instrument is where its `map` says nothing."""
-OWN = {"shutter": "open", "laser": "emission", "lamp": "on", "power meter": "power"}
-"""The property of a kind of instrument that is this tunable or measurable."""
-
 
 def mapped(setup: Setup, about: Declaration, entry: DeviceEntry, component: str) -> dict[str, Wired]:
-    """Return the property of a device that each tunable and measurable of a component is: as `map` says, or else the
-    usual one of the kind, and of a meter the wavelength that it is told."""
-    if entry.map or about.kind not in USUAL:
+    """Return the property of a device that each tunable and measurable of a component is: as `map` says, or else as
+    its kind has it. Raises PicoError for a kind that there is not."""
+    if entry.map:
         return dict(entry.map)
-    found = {USUAL[about.kind]: Wired(property=OWN[about.kind])}
-    if about.kind == "power meter" and component in setup.lab.inventory:
-        own = setup.type_of(component).tunables.keys() & {"wavelength"} & about.properties.keys()
-        found |= {name: Wired(property=name) for name in own}
+    kind = kind_of(about.kind)
+    found = {name: Wired(property=of) for name, of in kind.usual.items()}
+    if kind.by_name and component in setup.lab.inventory:
+        own = setup.measurables_of(component).keys() & about.properties_of(entry).keys()
+        found |= {name: Wired(property=name) for name in sorted(own)}
     return found
 
 

@@ -64,14 +64,14 @@ def complaints(entry: DeviceEntry) -> Iterator[Complaint]:
 
 def within_of(entry: DeviceEntry) -> float:
     """Return how long a few questions to a device may take in all [s]: two late replies, and never too long."""
-    return min(LONGEST - 0.2, 2.0 + 2 * float(entry.settings.get("timeout", REPLY)))
+    return min(LONGEST - 0.2, 2.0 + 2 * float(entry.setting("timeout", REPLY)))
 
 
 def resource_options(entry: DeviceEntry) -> dict[str, Any]:
     """Return what PyVISA is told when it opens the resource of an entry."""
     from pyvisa.constants import Parity, StopBits
 
-    said = {key: entry.settings.get(key, known.default) for key, known in SETTINGS.items()}
+    said: dict[str, Any] = {key: entry.settings.get(key, known.default) for key, known in SETTINGS.items()}
     milliseconds = round(float(said["timeout"] or REPLY) * 1000)
     options = {
         "timeout": milliseconds, "open_timeout": milliseconds,
@@ -88,7 +88,7 @@ def resource_options(entry: DeviceEntry) -> dict[str, Any]:
 
 def backend_of(entry: DeviceEntry) -> str:
     """Return the VISA library of an entry, as PyVISA names it."""
-    said = str(entry.settings.get("backend", SETTINGS["backend"].default))
+    said = str(entry.setting("backend", "@py"))
     return "" if said == "@ivi" else said  # PyVISA's own name for the vendor's library
 
 

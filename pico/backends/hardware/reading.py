@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from pico.backends.hardware.instruments import Instruments
-from pico.backends.hardware.tunables import UNKNOWN
 from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.drivers.driven import UNKNOWN
 from pico.drivers.protocols import Grip, SafetyState
 from pico.model.observation import LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
