@@ -109,8 +109,8 @@ class Visa:
     def __init__(self, entry: DeviceEntry) -> None:
         import pyvisa
 
-        self._manager = pyvisa.ResourceManager(backend_of(entry))
-        self.resource: Any = self._manager.open_resource(str(entry.address["visa"]), **resource_options(entry))
+        manager = pyvisa.ResourceManager(backend_of(entry))
+        self.resource: Any = manager.open_resource(str(entry.address["visa"]), **resource_options(entry))
 
     def ask(self, question: str) -> str:
         """Return the reply to a question; raises what PyVISA raises."""
@@ -139,9 +139,9 @@ class Visa:
         return judging.identity(self.ask("*IDN?"))
 
     def close(self) -> None:
-        """Close it; also while a question hangs in it."""
+        """Close it; also while a question hangs in it. PyVISA has one manager for all: closing that one would close
+        the links of other devices, too."""
         self.resource.close()
-        self._manager.close()
 
 
 def require_read_back(name: str, what: str, wanted: object, found: object) -> None:

@@ -137,7 +137,7 @@ def wired(
             if not all(one.code in LACKING for one in exc.diagnostics):
                 wrong += exc.diagnostics
                 continue
-            found.lacking[name] = told = tuple(replace(one, address=name) for one in exc.diagnostics)
+            found.lacking[name] = told = tuple(_of_device(name, one) for one in exc.diagnostics)
             if about is not None:
                 add(setup, found, name, entry, about, StandIn(told), settings)
             else:
@@ -149,6 +149,11 @@ def wired(
     if wrong:
         raise PicoError(wrong)
     return found
+
+
+def _of_device(name: str, why: Diagnostic) -> Diagnostic:
+    text = why.summary if name in why.summary else f"{name} can't be used: {why.summary}"
+    return replace(why, summary=text, address=name)
 
 
 UNKNOWN = "unknown"
