@@ -271,7 +271,9 @@ def test_after_a_stop_nothing_moves_any_more(name: str) -> None:
         run(go)
 
 
-@pytest.mark.parametrize("name", [n for n in MOVING if CASES[n].moved[1] is True and n.startswith("scpi") and not CASES[n].silent])
+@pytest.mark.parametrize(
+    "name", [n for n in MOVING if CASES[n].moved[1] is True and n.startswith("scpi") and not CASES[n].silent]
+)
 def test_after_a_stop_there_is_no_light(name: str) -> None:
     with wired(name) as it:
 

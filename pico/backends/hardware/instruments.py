@@ -19,6 +19,7 @@ from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import Driven, Measured, Point
 from pico.model.instruments.kinds import kind_of
+from pico.model.observation import LACKING
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, SafetyEntry, Wired
 
@@ -158,8 +159,6 @@ def _of_device(name: str, why: Diagnostic) -> Diagnostic:
 
 UNKNOWN = "unknown"
 """The kind of a device whose driver is not installed, or is broken: it may be any."""
-LACKING = ("driver", "plugin", "kind", "emulator")
-"""Codes of what concerns one device alone: its driver is not installed, or is broken, or nothing emulates it."""
 
 
 def _add_unknown(setup: Setup, found: Instruments, name: str, entry: DeviceEntry, one: Any) -> None:

@@ -7,12 +7,12 @@ from collections.abc import Awaitable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from pico.backends.hardware.instruments import LACKING, Instruments
+from pico.backends.hardware.instruments import Instruments
 from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.drivers.driven import UNKNOWN
 from pico.drivers.protocols import Grip, SafetyState
-from pico.model.observation import LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
+from pico.model.observation import LACKING, LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints
