@@ -90,7 +90,7 @@ def test_a_lab_whose_driver_is_not_installed_validates_plans_and_lists_its_devic
     assert "flip_foreign" in answer.err and "devices.yaml:35:13" in answer.err, answer.err
     assert "`pip install pico-newport`" in answer.err
     assert pico("status").code == 0
-    assert pico("plan").code == 2
+    assert "lens" in pico("plan").out
     row = next(one for one in json.loads(pico("devices", "--json").out)["devices"] if one["name"] == "flip_foreign")
     assert (row["kind"], row["maturity"], row["install"]) == ("unknown", "not installed", "pip install pico-newport")
 
@@ -125,8 +125,7 @@ def test_one_for_which_no_emulator_is_named_is_left_out_without_an_error(lab: Pa
 
 @pytest.mark.slow
 def test_numbers_and_positions_reach_the_lab_and_the_bench_works_without_what_it_lacks(lab: Path, pico: Pico) -> None:
-    found = json.loads(pico("--emulate", "measure", "pd.voltage", "--json").out)
-    one = found["measurements"][0]
+    one = json.loads(pico("--emulate", "measure", "pd.voltage", "--json").out)
     assert one["unit"] == "V" and one["sigma"] == pytest.approx(0.002) and abs(one["value"]) < 0.01, one
     done = pico("--emulate", "set", "wheel", "position=at_3", "--yes")
     assert done.code == 0, done.err

@@ -7,13 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from pico.backends.attempt import Failed
-from pico.backends.conversions import conversion_of, mapped
+from pico.backends.conversions import conversion_of
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
+from pico.model.instruments.mapping import mapped
 from pico.model.quantities import Value, convert
 from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints

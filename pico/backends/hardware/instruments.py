@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, cast
 
-from pico.backends.conversions import conversion_of, mapped
+from pico.backends.conversions import conversion_of
 from pico.backends.hardware.settings import Settings
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.driven import Exposed
@@ -19,6 +19,7 @@ from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import Driven, Measured, Point
 from pico.model.instruments.kinds import kind_of
+from pico.model.instruments.mapping import mapped
 from pico.model.observation import LACKING
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, SafetyEntry, Wired

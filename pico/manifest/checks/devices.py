@@ -13,6 +13,7 @@ from pico.model.instruments.conversion import same_dimension
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
 from pico.model.instruments.kinds import kind_of
+from pico.model.instruments.mapping import mapped
 from pico.model.quantities import QuantityError, dimension
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wired
@@ -52,7 +53,7 @@ def check_entry(
         yield error("device", f"{name}: {one.text}", hint=one.hint, source=at)
     owner = entry.of or name
     if owner in setup.lab.inventory:
-        for key, wired in entry.map.items():
+        for key, wired in mapped(setup, about, entry, owner).items():
             if wired.property in about.properties_of(entry):
                 yield from _mapped(document, name, entry, about, setup, owner, key, wired)
 
@@ -61,12 +62,17 @@ def _mapped(
     document: Document, name: str, entry: DeviceEntry, about: Declaration, setup: Setup, owner: str, key: str,
     wired: Wired,
 ) -> Iterator[Diagnostic]:  # fmt: skip
-    kind, at = setup.type_of(owner), where(document, "devices", name, "map", key)
+    kind, path = setup.type_of(owner), ("map", key) if key in entry.map else ("driver",)
+    at = where(document, "devices", name, *path)
     tunable = kind.tunables.get(key)
     units = {n: t.unit for n, t in kind.tunables.items()} | {n: m.unit for n, m in kind.measurables.items()}
     own = about.unit(entry, wired.property)
     if key not in units:
-        return  # told already
+        if key not in entry.map:  # else told already
+            text = f"{owner} has no `{key}`, which {_with_article(about.kind)} is if the lab has no `map`"
+            hint = f"`map: {{NAME: {{property: {wired.property}}}}}`, or name another component by `of:`"
+            yield error("unknown-tunable", text, hint=hint, source=at)
+        return
     takes = kind_of(about.kind).datatypes
     if tunable is not None and tunable.datatype not in takes:
         what = f"{owner}.{key} is a {tunable.datatype}, and {name} is {_with_article(about.kind)}"
