@@ -136,3 +136,15 @@ def test_numbers_and_positions_reach_the_lab_and_the_bench_works_without_what_it
     assert status.code == 0 and f"flip_foreign can't be used: {FOREIGN}" in status.err, status.err
     assert pico("--emulate", "set", "laser", "shutter=closed", "--yes").code == 0
     assert pico("--emulate", "recover", "--yes").code == 0
+
+
+def test_without_the_driver_of_the_arm_light_can_be_shut_and_nothing_else_is_dared(lab: Path, pico: Pico) -> None:
+    edit(lab / "devices.yaml", "driver: xarm.arm", "driver: acme.arm")
+    status = pico("--emulate", "status")
+    assert status.code == 0 and "arm1 can't be used: there is no driver `acme.arm`" in status.err, status.err
+    assert pico("--emulate", "laser", "disarm", "laser").code == 0
+    assert pico("--emulate", "set", "laser", "shutter=closed", "--yes").code == 0
+    for words in (("apply", "--yes"), ("set", "laser", "emission=true", "--yes")):
+        refused = pico("--emulate", *words)
+        assert refused.code != 0 and "internal" not in refused.err, refused
+        assert "without arm1 no arm moves, and no light is let out" in refused.err, refused.err

@@ -52,6 +52,8 @@ class Instruments:
     inputs: dict[str, tuple[SafetyEntry, SafetyInput]] = field(default_factory=dict)
     all: dict[str, Instrument] = field(default_factory=dict)
     lacking: dict[str, tuple[Diagnostic, ...]] = field(default_factory=dict)
+    armless: dict[str, tuple[Diagnostic, ...]] = field(default_factory=dict)
+    """Why the arm of a robot, or its gripper, can't be had: nobody knows where it stands then, or what it holds."""
     maturity: dict[str, str] = field(default_factory=dict)
     who: dict[str, Identity] = field(default_factory=dict)
 
@@ -83,6 +85,8 @@ def add(
     """Put an instrument where the lab has it; raises PicoError for a kind that there is not."""
     of, role = entry.of or name, kind_of(about.kind).role
     found.all[name] = one
+    if name in found.lacking and role in ("arm", "gripper", "camera") and of not in setup.lab.inventory:
+        return  # nothing is known of an arm that can't be had, and a camera that can't be had sees nothing
     if role == "arm":
         found.arms[of] = one
     elif role == "gripper":
@@ -140,6 +144,8 @@ def wired(
                 wrong += exc.diagnostics
                 continue
             found.lacking[name] = told = tuple(_of_device(name, one) for one in exc.diagnostics)
+            if (entry.of or name) in setup.lab.robots:
+                found.armless[entry.of or name] = told
             if about is not None:
                 add(setup, found, name, entry, about, StandIn(told), settings)
             else:
@@ -166,12 +172,7 @@ def _add_unknown(setup: Setup, found: Instruments, name: str, entry: DeviceEntry
     """Put what stands in for an instrument of unknown kind wherever the lab may have it."""
     of = entry.of or name
     found.all[name] = one
-    if of in setup.lab.robots:
-        for hands in (found.arms, found.grippers):
-            hands.setdefault(of, one)
-    elif of in setup.lab.cameras:
-        found.cameras[of] = one
-    elif of in setup.lab.inventory:
+    if of in setup.lab.inventory:
         tunables = setup.type_of(of).tunables
         for key in entry.map:
             if key in tunables:

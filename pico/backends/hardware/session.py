@@ -15,7 +15,7 @@ from pico.backends.device import Began
 from pico.backends.guard.verdict import Trip
 from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
-from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
+from pico.backends.hardware.guarding import concerned, require_known_arms, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
@@ -93,6 +93,7 @@ class HardwareSession:
         failure: Failed | None = None
         try:
             self._require_running()
+            require_known_arms(self._setup, self._bench, operation)
             data = await self._guarded(operation, lambda: self._act(operation, key))
             if self._light_ended and operation.primitive in ("measure", "auto_range"):
                 raise Failed(self._light_ended)  # it may have been measured in the dark
