@@ -18,8 +18,8 @@ What each driver is one of. This page is printed from the files in `pico/drivers
 A kind states the protocol of its drivers, what `pico devices check` shows, and what an instrument of it is in a lab
 without `map`. A new kind is one file: beside those of PICO, or in a package by the entry point `pico.kinds`. Its `KIND`
 is an `InstrumentKind` (`pico/model/instruments/kind.py`): `reads` gives the words of `devices check`, `drives` what
-sets a tunable, `measures` what reads a measurable. PICO checks that what a plug-in's driver makes has all methods of the
-protocol of its kind (`pico/drivers/protocols.py`; those of `number` and `choice` are in their files).
+sets a tunable, `measures` what reads a measurable. PICO checks that what a plug-in's driver makes has all methods of
+the protocol of its kind (`pico/drivers/protocols.py`; those of `number` and `choice` are in their files).
 
 | kind | what it is | without `map` | sets tunables of | methods |
 |---|---|---|---|---|

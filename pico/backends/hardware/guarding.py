@@ -29,8 +29,8 @@ def concerned(setup: Setup, operation: Operation) -> frozenset[SafetyKind]:
 
 
 def require_known_arms(setup: Setup, bench: Instruments, operation: Operation) -> None:
-    """Raise Failed for a motion of any arm, and for light that is let out, if an arm can't be had: nobody knows where it
-    stands then, and what it holds."""
+    """Raise Failed for a motion of any arm, and for light that is let out, if an arm can't be had: nobody knows where
+    it stands then, and what it holds."""
     moves = operation.robot is not None or operation.kind.parks
     if not bench.armless or not (moves or lets_out(setup, operation)):
         return
