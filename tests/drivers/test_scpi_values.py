@@ -178,3 +178,9 @@ def test_closing_one_link_leaves_those_of_other_devices_open() -> None:
         assert asyncio.run(go()) == "open"
     finally:
         bench.close()
+
+
+def test_what_lets_light_out_is_no_choice() -> None:
+    text = WHEEL.replace("of: wheel", "of: laser").replace("{1: at_1, 2: at_2}", "{0: closed, 1: open}")
+    ((_, said),) = wrong(text + "    map: {shutter: {property: position}}\n")
+    assert "laser.shutter lets light out, and the guard of light can't end it through a choice" in said

@@ -19,12 +19,12 @@ from pico.backends.hardware.guarding import concerned, require_known_arms, requi
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
-from pico.backends.hardware.tunables import Driven
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
 from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.drivers.protocols import Arm
+from pico.model.instruments.kind import Driven
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose

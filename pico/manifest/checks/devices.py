@@ -83,6 +83,9 @@ def _mapped(
             hint=f"map a tunable of datatype {' or '.join(takes)}" if takes else "leave `map` out",
             source=at,
         )
+    elif tunable is not None and key in ("shutter", "emission") and about.kind not in _ENDS_LIGHT:
+        text = f"{owner}.{key} lets light out, and the guard of light can't end it through {_with_article(about.kind)}"
+        yield error("value", text, hint="choose a driver of the kind `shutter` or `laser`", source=at)
     elif tunable is not None and not about.writable(entry, wired.property) and tunable.restore.kind != "none":
         text = f"{owner}.{key} is set, and `{wired.property}` of {name} is only read"
         hint = "`set:` in its settings says how it is set; a value that is only read is a measurable of its type"
@@ -91,6 +94,10 @@ def _mapped(
         yield from _positions(document, name, tunable, f"{owner}.{key}", names)
     elif own and units[key] and (wrong := _unit(wired, own, units[key], f"{owner}.{key}", entry.driver)):
         yield error("unit", wrong[0], hint=wrong[1], source=at)
+
+
+_ENDS_LIGHT = ("shutter", "laser", "lamp")
+"""The kinds that what lets light out may be."""
 
 
 def _with_article(kind: str) -> str:
