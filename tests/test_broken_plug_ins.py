@@ -433,6 +433,7 @@ def test_a_kind_of_a_package_is_known_and_its_protocol_is_asked_of_drivers(
     text = DRIVER.replace('"laser"', '"bell"').replace('properties={"emission": ""}', "properties={'emission': ''}")
     (tmp_path / "site" / "own_kind.py").write_text(OWN_KIND)
     install("[pico.drivers]\nown = own_parts:OWN\n[pico.kinds]\nbell = own_kind\n", text.replace("BODY", "return 42"))
+    edit(lab / "devices.yaml", "    map: {emission: {property: emission}}\n", "")
     assert "warning[kind]" not in pico("validate").err
     asked = pico("devices", "check")
     assert asked.code == 1 and "error[plugin]" in asked.err and "which has no `" in asked.err, asked

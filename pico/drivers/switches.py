@@ -113,8 +113,7 @@ class _Watched(_Switch):
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[SwitchLink]) -> None:
         super().__init__(name, entry, bus)
-        said = entry.settings.get(WATCHDOG)
-        self._within = None if said is None else float(said)
+        self._within = float(entry.setting(WATCHDOG, 0.0)) if WATCHDOG in entry.settings else None
 
     @property
     def dead_man(self) -> float | None:
