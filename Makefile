@@ -51,6 +51,7 @@ schemas: $(STAMP)
 docs: $(STAMP)
 	$(BIN)/python .ci/state_files.py
 	$(BIN)/python .ci/safety_table.py
+	$(BIN)/python .ci/instrument_kinds.py
 
 $(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py .ci/install.py
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'

@@ -62,7 +62,7 @@ SAFETY: dict[str, Module] = {
     "pico/policy/judging/case.py": Module(("tests/policy",)),
     "pico/content/store.py": Module(("tests/content",)),
     "pico/backends/hardware/guarding.py": Module(("tests/backends/hardware",)),
-    "pico/backends/hardware/tunables.py": Module(("tests/backends/hardware",)),
+    "pico/drivers/driven.py": Module(("tests/backends/hardware",)),
     "pico/backends/hardware/setting.py": Module(("tests/backends/hardware",), functions=("driven", "_device")),
     "pico/backends/hardware/session.py": Module(
         ("tests/backends/hardware",), functions=tuple(f"HardwareSession.{name}" for name in _SESSION)

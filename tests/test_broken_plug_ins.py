@@ -369,3 +369,72 @@ def test_lists_and_hints_of_all_of_a_kind_go_on_without_a_broken_one(
     install(f"[{kind.group}]\nown = {kind.at}\n", MISTAKES["import"][0](kind.text))
     answer = pico(*words)
     assert answer.code == code and said in answer.err and "error[plugin]" not in answer.err, answer
+
+
+BESIDE = """  arm1: {driver: xarm.arm, address: {host: 192.0.2.222}, settings: {tool_z: 172}}
+  arm1_hand: {driver: xarm.gripper, of: arm1, address: {host: 192.0.2.222}}
+  left: {driver: frames.camera, address: {host: 192.0.2.10, port: 5001}}
+  right: {driver: frames.camera, address: {host: 192.0.2.10, port: 5002}}
+  shutter_box: {driver: switches.shutter, of: laser, address: {host: 192.0.2.20, port: 4000, name: shutter}}
+"""
+
+
+@pytest.mark.parametrize("mistake", ["import", pytest.param("raises", marks=pytest.mark.slow)])
+def test_a_broken_driver_stops_no_other_device_of_a_bench(
+    mistake: str, lab: Path, install: Install, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The laser's own driver is broken: its shutter can be closed all the same."""
+    monkeypatch.setenv("PICO_EMULATED_PACE", "20")
+    wired("own", "switches")(lab)
+    (lab / "devices.yaml").write_text((lab / "devices.yaml").read_text() + BESIDE)
+    install("[pico.drivers]\nown = own_parts:OWN\n", MISTAKES[mistake][0](DRIVER))
+    named = "the driver plug-in `own` of package own-parts"
+    if mistake == "import":  # of what fails only when it is called the files know nothing
+        checked = pico("validate")
+        assert checked.code == 0 and "warning[plugin]" in checked.err and "devices.yaml:7:13" in checked.err, checked
+    status = pico("--emulate", "status")
+    assert status.code == 0 and named in status.err and "error" not in status.err, status
+    assert pico("--emulate", "recover").code == 0
+    shut = pico("--emulate", "set", "laser", "shutter=closed", "--yes")
+    assert shut.code == 0, shut
+    failed = pico("--emulate", "set", "laser", "emission=true", "--yes")
+    assert failed.code != 0 and named in failed.err, failed
+
+
+def test_a_driver_of_a_kind_that_there_is_not_is_named_with_those_that_there_are(
+    lab: Path, install: Install, pico: Pico
+) -> None:
+    wired("own", "switches")(lab)
+    install("[pico.drivers]\nown = own_parts:OWN\n", DRIVER.replace('"laser"', '"lasser"'))
+    checked = pico("validate")
+    assert checked.code == 0 and "warning[kind]" in checked.err and "devices.yaml:7:13" in checked.err, checked
+    assert "there is no kind of instrument `lasser`" in checked.err and "did you mean `laser`?" in checked.err
+    asked = pico("devices", "check")
+    assert asked.code == 1 and "error[plugin]" in asked.err and "lasser" in asked.err, asked
+    assert "KeyError" not in asked.err and "internal" not in asked.err
+
+
+OWN_KIND = """
+from typing import Protocol
+from pico.drivers.protocols import Instrument
+from pico.model.instruments.kind import InstrumentKind
+class Bell(Instrument, Protocol):
+    async def ring(self): ...
+async def reads(bell):
+    return "silent"
+KIND = InstrumentKind(name="bell", about="what rings", protocol=Bell, reads=reads)
+"""
+
+
+def test_a_kind_of_a_package_is_known_and_its_protocol_is_asked_of_drivers(
+    lab: Path, tmp_path: Path, install: Install, pico: Pico
+) -> None:
+    wired("own", "switches")(lab)
+    text = DRIVER.replace('"laser"', '"bell"').replace('properties={"emission": ""}', "properties={'emission': ''}")
+    (tmp_path / "site" / "own_kind.py").write_text(OWN_KIND)
+    install("[pico.drivers]\nown = own_parts:OWN\n[pico.kinds]\nbell = own_kind\n", text.replace("BODY", "return 42"))
+    edit(lab / "devices.yaml", "    map: {emission: {property: emission}}\n", "")
+    assert "warning[kind]" not in pico("validate").err
+    asked = pico("devices", "check")
+    assert asked.code == 1 and "error[plugin]" in asked.err and "which has no `" in asked.err, asked
+    sys.modules.pop("own_kind", None)

@@ -99,7 +99,7 @@ def read(context: typer.Context, devices: Names = None) -> int:
     session.show(properties, properties_of(setup, rows))
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)
-    return ExitCode.ERROR if wrong else ExitCode.DONE
+    return ExitCode.ERROR if any(one.severity == "error" for one in wrong) else ExitCode.DONE
 
 
 def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) -> int:
@@ -113,4 +113,4 @@ def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) 
     session.show(view, rows, identify=whoever)
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)
-    return ExitCode.ERROR if wrong else ExitCode.DONE
+    return ExitCode.ERROR if any(one.severity == "error" for one in wrong) else ExitCode.DONE

@@ -39,7 +39,7 @@ def status(
         found = bench.drift.status()
     except PicoError as exc:  # of manifests, or of a journal; what emits meanwhile is reported all the same
         raise PicoError([*exc.diagnostics, *_light(session)], exc.exit_code) from exc
-    session.tell(found.cut_short)
+    session.tell((*found.cut_short, *found.lacking))
     session.show(view, found, every=every)
 
 

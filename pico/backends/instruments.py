@@ -7,10 +7,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.drivers.checking import Answer, anybody, checked
-from pico.drivers.driver import Driver
-from pico.drivers.registry import driver, missing
+from pico.drivers.registry import driver, known_driver, missing
 from pico.emulators.behind import Alone
 from pico.emulators.registry import EmulatedBench
 from pico.manifest.load import find_lab, load_folder
@@ -66,16 +65,28 @@ def named(setup: Setup, names: Sequence[str] = ()) -> dict[str, DeviceEntry]:
 
 def listed(entries: dict[str, DeviceEntry], answers: dict[str, Answer] | None = None) -> list[InstrumentRow]:
     """Return a row a device."""
-    return [_row(name, entry, driver(entry.driver), (answers or {}).get(name)) for name, entry in entries.items()]
+    return [_row(name, entry, (answers or {}).get(name)) for name, entry in entries.items()]
 
 
-def _row(name: str, entry: DeviceEntry, found: Driver, answer: Answer | None) -> InstrumentRow:
+def _row(name: str, entry: DeviceEntry, answer: Answer | None) -> InstrumentRow:
+    try:
+        found = driver(entry.driver)
+    except PicoError as exc:
+        absent = exc.diagnostics[0].code == "driver"
+        return InstrumentRow(
+            name=name, of=entry.of or name, kind="unknown", driver=entry.driver,
+            maturity="not installed" if absent else "broken", address=_address(entry),
+            install=f"pip install {entry.package}" if absent and entry.package else "", answer=answer,
+        )  # fmt: skip
     tried = f"{found.maturity}, {found.tried}" if found.tried else found.maturity
-    address = " ".join(f"{key}={value}" for key, value in entry.address.items())
     return InstrumentRow(
-        name=name, of=entry.of or name, kind=found.kind, driver=entry.driver, maturity=tried, address=address,
+        name=name, of=entry.of or name, kind=found.kind, driver=entry.driver, maturity=tried, address=_address(entry),
         install=missing(found), answer=answer,
     )  # fmt: skip
+
+
+def _address(entry: DeviceEntry) -> str:
+    return " ".join(f"{key}={value}" for key, value in entry.address.items())
 
 
 def asked(
@@ -83,23 +94,36 @@ def asked(
 ) -> list[InstrumentRow]:
     """Return a row a device with what it answers, or, with `emulate`, what its emulator does, behind which there is
     nothing and it is dark; `whoever`: also where another one answers than the lab says; `properties`: with what it
-    reads of each. Raises PicoError for one without emulator."""
+    reads of each. One without emulator is left out, and has that as its answer."""
     wanted = anybody(entries) if whoever else entries
     if not emulate:
         return listed(entries, asyncio.run(checked(wanted, properties=properties)))
     import numpy as np
 
-    for entry in wanted.values():  # before its emulator is started with what no driver has checked
-        driver(entry.driver)
     dark = np.zeros((480, 640), np.uint8)
     bench = EmulatedBench(emulated(entries), lambda name, entry: Alone({"frame": dark}))
     try:
         there = bench.entries
-        return listed(there, asyncio.run(checked(anybody(there) if whoever else there, properties=properties)))
+        answers = asyncio.run(checked(anybody(there) if whoever else there, properties=properties))
+        lacking = {name: Answer(diagnostics=why) for name, why in {**unreachable(entries), **bench.failed}.items()}
+        return listed({**entries, **there}, {**answers, **lacking})
     finally:
         bench.close()
 
 
 def emulated(entries: dict[str, DeviceEntry]) -> dict[str, DeviceEntry]:
-    """Return the entries with the emulator that their driver names, where they name none."""
-    return {n: e if e.emulator else replace(e, emulator=driver(e.driver).emulator) for n, e in entries.items()}
+    """Return the entries with the emulator that their driver names, if they name none; without those of `unreachable`,
+    for an emulator needs a driver that checks what it is told."""
+    found = {n: (e, known_driver(e.driver)) for n, e in entries.items()}
+    return {n: e if e.emulator else replace(e, emulator=about.emulator) for n, (e, about) in found.items() if about}
+
+
+def unreachable(entries: dict[str, DeviceEntry]) -> dict[str, tuple[Diagnostic, ...]]:
+    """Return the devices whose driver is not installed, or is broken, with what is wrong."""
+    found: dict[str, tuple[Diagnostic, ...]] = {}
+    for name, entry in entries.items():
+        try:
+            driver(entry.driver)
+        except PicoError as exc:
+            found[name] = tuple(replace(one, address=name) for one in exc.diagnostics)
+    return found

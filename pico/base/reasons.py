@@ -8,7 +8,7 @@ from typing import Literal
 
 ReasonCode = Literal[
     "over-range", "under-range", "no-number", "garbled", "instrument-error", "saturated", "stale", "wavelength",
-    "out-of-limits", "not-homed", "no-answer", "not-computed",
+    "out-of-limits", "not-homed", "moving", "no-answer", "not-computed",
 ]  # fmt: skip
 """Why a value is unknown, or not assured: the closed list that `REASONS` explains."""
 REASONS: Mapping[ReasonCode, str] = MappingProxyType(
@@ -23,6 +23,7 @@ REASONS: Mapping[ReasonCode, str] = MappingProxyType(
         "wavelength": "the instrument is not set to the wavelength of the light",
         "out-of-limits": "the number lies outside the `limits` of the device",
         "not-homed": "the axis has no zero: it must be homed first",
+        "moving": "the device is between two of its positions",
         "no-answer": "the instrument did not answer in time, or its link was lost",
         "not-computed": "the kernels find no such number in what was measured",
     }

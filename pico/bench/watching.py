@@ -20,7 +20,7 @@ from pico.diagnostics import ExitCode, PicoError
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import unread_values
 from pico.model.lab import HealLimit
-from pico.model.observation import Observation
+from pico.model.observation import LACKING, Observation
 from pico.model.record import record
 from pico.model.trace.report import RunReport
 
@@ -64,7 +64,8 @@ class Watch:
             unaligned(folder.setup, self.opened.edge.memory, seen, folder.state),
         )
         found = compare(folder.setup, folder.committed(), folder.state, seen, head, unaligned=missed)
-        return replace(found, cut_short=told_first(self.opened, seen))
+        lacking = tuple(one for one in seen.problems if one.code in LACKING)
+        return replace(found, cut_short=told_first(self.opened, seen), lacking=lacking)
 
     def look(self) -> Drifted:
         """Look at the bench and return where it has left HEAD: by how much, how surely, and who did it. Moves nothing,

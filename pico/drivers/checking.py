@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import field, replace
-from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError
-from pico.drivers.driver import Kind
 from pico.drivers.protocols import Identity, Instrument, Readable
 from pico.drivers.registry import Buses, driver
+from pico.model.instruments.kinds import kind_of
 from pico.model.instruments.readout import Readout
 from pico.model.record import record
 from pico.model.wiring import DeviceEntry
@@ -60,56 +59,6 @@ async def _answer(buses: Buses, name: str, entry: DeviceEntry, properties: bool)
     return Answer(identity=identity, reads=reads, readouts=found)
 
 
-async def reading(kind: Kind, instrument: Instrument) -> str:
+async def reading(kind: str, instrument: Instrument) -> str:
     """Return in words what an instrument that is connected reads; raises PicoError."""
-    return await _READ[kind](instrument)
-
-
-async def _axis(axis: Any) -> str:
-    at = await axis.position()
-    return "to be homed first" if at is None else f"at {at:.6g}"
-
-
-async def _meter(meter: Any) -> str:
-    found = await meter.power()
-    if found.value is None:
-        return f"unknown: {found.why}"
-    return f"{found.value:.4g} {found.unit}" + (f" ± {found.sigma:.2g} {found.unit}" if found.sigma is not None else "")
-
-
-async def _laser(laser: Any) -> str:
-    return {True: "emits", False: "does not emit", None: "emission unknown"}[await laser.emitting()]
-
-
-async def _shutter(shutter: Any) -> str:
-    return {True: "open", False: "closed", None: "unknown"}[await shutter.is_open()]
-
-
-async def _safety(read: Any) -> str:
-    return {True: "safe", False: "NOT safe", None: "unknown: not safe"}[(await read.read()).safe]
-
-
-async def _arm(arm: Any) -> str:
-    state = await arm.state()
-    said = f"{'enabled' if state.enabled else 'not enabled'}, heard of {state.age:.1f} s ago"
-    return said + (", moving" if state.moving else "") + (f", fault {state.fault}" if state.fault else "")
-
-
-async def _gripper(gripper: Any) -> str:
-    grip = await gripper.grip()
-    return f"{grip.width:.1f} mm open" + (", holds something" if grip.holds else "")
-
-
-async def _camera(camera: Any) -> str:
-    rows, columns = (await camera.grab()).shape[:2]
-    return f"{columns} x {rows} pixels"
-
-
-async def _nothing(instrument: Instrument) -> str:
-    return ""
-
-
-_READ: Mapping[Kind, Callable[[Any], Awaitable[str]]] = {
-    "arm": _arm, "gripper": _gripper, "axis": _axis, "camera": _camera, "depth camera": _camera,
-    "power meter": _meter, "laser": _laser, "shutter": _shutter, "lamp": _nothing, "safety input": _safety,
-}  # fmt: skip
+    return await kind_of(kind).reads(instrument)

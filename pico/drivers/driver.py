@@ -4,16 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 from pico.drivers.bus import Bus
 from pico.drivers.protocols import Instrument, Maturity
 from pico.model.instruments.declaration import Declaration
 from pico.model.wiring import DeviceEntry
-
-Kind = Literal[
-    "arm", "gripper", "axis", "camera", "depth camera", "power meter", "laser", "shutter", "lamp", "safety input"
-]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +22,6 @@ class Driver(Declaration):
     Importing a driver's file imports no vendor's library.
     """
 
-    kind: Kind
     made: Callable[[str, DeviceEntry, Bus[Any]], Instrument]
     opened: Callable[[DeviceEntry], Any]
     closed: Callable[[Any], object]

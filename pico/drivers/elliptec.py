@@ -67,7 +67,7 @@ MODELS = {
     0x11: Model("ELL17", "linear"), 0x12: Model("ELL18", "rotary"), 0x14: Model("ELL20", "linear"),
 }  # fmt: skip
 """By the vendor's protocol manual."""
-_OF_TRAVEL = {"linear": "elliptec.stage", "rotary": "elliptec.rotator"}
+_OF_TRAVEL = {"linear": "elliptec.stage", "rotary": "elliptec.rotator", "positions": "elliptec.slider"}
 _FEWEST_A_TURN = 10_000
 """Pulses a turn that any rotary model exceeds, and pulses a mm of a linear one (1024 or 2048) never reach."""
 _STANDS = 4
@@ -84,60 +84,21 @@ class About:
     travel: int
 
 
-class _Axis:
-    """A device of the series: an `Axis` in its unit."""
+class Device:
+    """A device of the series, which moves in its `unit` and comes to rest within `reached` of where it was sent."""
 
-    travels: Literal["linear", "rotary"]
-    prop: str
+    travels: Literal["linear", "rotary", "positions"]
     unit: str
     reached: float
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[ElliptecBus]) -> None:
         self.name = name
-        self._at = _address(entry)
-        self._limits = entry.limits.get(self.prop)
+        self._at = address_of(entry)
         self._about = About(MODELS[0x0E], 1, 0)
         self._line = Line(name, bus, entry.identity, self._identity)
 
     async def connect(self) -> Identity:
         return await self._line.connect()
-
-    async def position(self) -> float | None:
-        """Return where it is, None where it was not homed since it has power."""
-        return (await self.readout()).number
-
-    async def readout(self) -> Readout:
-        """Return where it is, with the reply; unknown if it was not homed since it has power."""
-
-        def read(bus: ElliptecBus) -> Readout:
-            jog = self._asked(bus, "gj", "GJ")
-            if judging.hexadecimal(jog.data, _DIGITS, signed=True) != self._mark:
-                return unknown(self.unit, "not-homed", jog.raw)
-            packet = self._asked(bus, "gp", "PO")
-            return Readout(unit=self.unit, value=self._position(packet), raw=packet.raw)
-
-        return await self._line.ask("tell where it is", read)
-
-    async def readouts(self) -> Mapping[str, Readout]:
-        """Return what it reads of its properties, with the replies."""
-        return {self.prop: await self.readout()}
-
-    async def move_to(self, position: float) -> float:
-        """Drive to a position, in its unit."""
-        require_within(self.name, self.prop, position, self._limits or self._usual(), self.unit)
-        at = await self._moved(f"{self._verb} to {position:g} {self.unit}", lambda: self._pulses(position), "ma")
-        if abs(at - position) > self.reached:
-            text = (
-                f"{self.name} came to rest at {at:.6g} {self.unit}, and was to {self._verb} to {position:g} {self.unit}"
-            )
-            raise PicoError(error("device-missed", text, address=self.name))
-        return at
-
-    async def home(self) -> float:
-        """Drive to its zero."""
-        at = await self._moved("find its zero", lambda: 0, "ho")
-        await self._line.ask("keep that it was homed", lambda bus: self._asked(bus, f"sj{_hex(self._mark)}", "GS"))
-        return at
 
     async def stop(self) -> None:
         await self._line.stop(lambda bus: self._asked(bus, "st", "GS", "PO"))
@@ -151,7 +112,8 @@ class _Axis:
 
         def begin(bus: ElliptecBus) -> None:
             _fresh(bus)
-            bus.write(command + (_hex(goal()) if command == "ma" else "0"), address=self._at)
+            more = {"ma": _hex(goal()), "ho": "0"}
+            bus.write(command + more.get(command, ""), address=self._at)
 
         await self._line.move(what, begin)
         ends, last, same = time.monotonic() + LONGEST, math.nan, 0
@@ -226,7 +188,63 @@ class _Axis:
 
     def _of(self, pulses: int) -> float:
         """Return the position of a number of pulses, in its unit."""
-        return pulses * self._per / self._about.pulses
+        return pulses * (360.0 if self.travels == "rotary" else 1.0) / self._about.pulses
+
+    def _identity(self, bus: ElliptecBus) -> Identity:
+        packet = self._asked(bus, "in", "IN")
+        self._about, who = about(packet.data)
+        if (is_ := self._about.model.travels) != self.travels:
+            text = f"{self.name} is {_DOES[is_]} ({who.model}), and is wired as {_DOES[self.travels]}"
+            hint = f"write `driver: {_OF_TRAVEL[is_]}`"
+            raise PicoError(error("device-kind", text, hint=hint, address=self.name))
+        return who
+
+
+class _Axis(Device):
+    """An axis of the series: an `Axis` in its unit."""
+
+    prop: str
+
+    def __init__(self, name: str, entry: DeviceEntry, bus: Bus[ElliptecBus]) -> None:
+        super().__init__(name, entry, bus)
+        self._limits = entry.limits.get(self.prop)
+
+    async def position(self) -> float | None:
+        """Return where it is, None where it was not homed since it has power."""
+        return (await self.readout()).number
+
+    async def readout(self) -> Readout:
+        """Return where it is, with the reply; unknown if it was not homed since it has power."""
+
+        def read(bus: ElliptecBus) -> Readout:
+            jog = self._asked(bus, "gj", "GJ")
+            if judging.hexadecimal(jog.data, _DIGITS, signed=True) != self._mark:
+                return unknown(self.unit, "not-homed", jog.raw)
+            packet = self._asked(bus, "gp", "PO")
+            return Readout(unit=self.unit, value=self._position(packet), raw=packet.raw)
+
+        return await self._line.ask("tell where it is", read)
+
+    async def readouts(self) -> Mapping[str, Readout]:
+        """Return what it reads of its properties, with the replies."""
+        return {self.prop: await self.readout()}
+
+    async def move_to(self, position: float) -> float:
+        """Drive to a position, in its unit."""
+        require_within(self.name, self.prop, position, self._limits or self._usual(), self.unit)
+        at = await self._moved(f"{self._verb} to {position:g} {self.unit}", lambda: self._pulses(position), "ma")
+        if abs(at - position) > self.reached:
+            text = (
+                f"{self.name} came to rest at {at:.6g} {self.unit}, and was to {self._verb} to {position:g} {self.unit}"
+            )
+            raise PicoError(error("device-missed", text, address=self.name))
+        return at
+
+    async def home(self) -> float:
+        """Drive to its zero."""
+        at = await self._moved("find its zero", lambda: 0, "ho")
+        await self._line.ask("keep that it was homed", lambda bus: self._asked(bus, f"sj{_hex(self._mark)}", "GS"))
+        return at
 
     def _pulses(self, position: float) -> int:
         return round(position * self._about.pulses / self._per)
@@ -249,18 +267,13 @@ class _Axis:
         """Return how far it travels, in its unit; a stage says so itself, once it has answered."""
         return (0.0, 360.0 if self.travels == "rotary" else float(self._about.travel) or math.inf)
 
-    def _identity(self, bus: ElliptecBus) -> Identity:
-        packet = self._asked(bus, "in", "IN")
-        self._about, who = about(packet.data)
-        if (is_ := self._about.model.travels) != self.travels:
-            does = {"linear": "a linear stage", "rotary": "a rotation mount"}.get(is_, "a device of named positions")
-            text = f"{self.name} is {does} ({who.model}), and is wired as {_DOES[self.travels]}"
-            hint = f"write `driver: {_OF_TRAVEL[is_]}`" if is_ in _OF_TRAVEL else "no driver of an axis drives it"
-            raise PicoError(error("device-kind", text, hint=hint, address=self.name))
-        return who
+
+_DOES = {"linear": "a linear stage", "rotary": "a rotation mount", "positions": "a slider of named positions"}
 
 
-_DOES = {"linear": "a linear stage", "rotary": "a rotation mount"}
+def driver_of(model: Model) -> str:
+    """Return the name of the driver that moves a model."""
+    return _OF_TRAVEL[model.travels]
 
 
 class Rotator(_Axis):
@@ -282,26 +295,28 @@ def about(data: str) -> tuple[About, Identity]:
         raise ValueError(f"{data[:40]!r} has not {_ABOUT} digits")
     code, travel = judging.hexadecimal(data[:2], 2), judging.hexadecimal(data[18:22], 4)
     pulses = judging.hexadecimal(data[22:], 8)
-    if not pulses or not data[2:10].isalnum() or not data[10:16].isalnum():
-        raise ValueError(f"{data!r} has no pulses, or no serial number")
     model = MODELS.get(code) or Model(f"ELL{code}", "rotary" if pulses > _FEWEST_A_TURN else "linear")
+    counted = pulses or (model.travels == "positions" and travel)  # those of sliders give no pulses
+    if not counted or not data[2:10].isalnum() or not data[10:16].isalnum():
+        raise ValueError(f"{data!r} has no pulses, or no serial number")
     who = Identity(vendor="Thorlabs", model=model.name, serial=data[2:10], firmware=f"0x{data[14:16]}")
     return About(model, pulses, travel), who
 
 
-def _address(entry: DeviceEntry) -> str:
+def address_of(entry: DeviceEntry) -> str:
+    """Return the address of a device on its line."""
     return str(entry.address.get("bus", "0")).upper()
 
 
-def _complaints(travels: str) -> Callable[[DeviceEntry], Iterator[Complaint]]:
+def complaints_of(travels: str) -> Callable[[DeviceEntry], Iterator[Complaint]]:
     """Return what tells of an address that is none, and of a model that does not move as the driver takes it to."""
 
     def found(entry: DeviceEntry) -> Iterator[Complaint]:
-        if not re.fullmatch("[0-9A-F]", _address(entry)):
+        if not re.fullmatch("[0-9A-F]", address_of(entry)):
             yield Complaint("address.bus", f"`{entry.address['bus']}` is no address on the line", "it is `0` to `F`")
         for model in MODELS.values():
             if model.name == entry.identity.get("model", "").upper() and model.travels != travels:
-                hint = f"write `driver: {_OF_TRAVEL[model.travels]}`" if model.travels in _OF_TRAVEL else ""
+                hint = f"write `driver: {_OF_TRAVEL[model.travels]}`"
                 yield Complaint("driver", f"an {model.name} is not {_DOES[travels]}", hint)
 
     return found
@@ -341,14 +356,20 @@ def _hex(pulses: float) -> str:
     return f"{round(pulses) & 0xFFFFFFFF:08X}"
 
 
-def _driver(made: type[_Axis], bounds: dict[str, tuple[float, float]]) -> Driver:
+def series_driver(made: type[Device], **more: Any) -> Driver:
+    """Return the driver of devices of the series; `more`: what it declares besides address and link."""
     return Driver(
-        kind="axis", made=made, opened=_opened, closed=lambda bus: bus.close(),
+        made=made, opened=_opened, closed=lambda bus: bus.close(),
         address={"port": "the serial port (`/dev/ttyUSB0`)", "bus": "its address on the line, `0` to `F`"},
-        bus=("port",), usual={"bus": "0"}, properties={made.prop: made.unit}, bounds=bounds, settings={},
-        check=_complaints(made.travels), needs=("ElliptecBus.elliptec_bus", "thorlabs"), maturity="emulated",
-        emulator="elliptec", link="elliptec",
+        bus=("port",), usual={"bus": "0"}, needs=("ElliptecBus.elliptec_bus", "thorlabs"), maturity="emulated",
+        emulator="elliptec", link="elliptec", **more,
     )  # fmt: skip
+
+
+def _driver(made: type[_Axis], bounds: dict[str, tuple[float, float]]) -> Driver:
+    properties = {made.prop: made.unit}
+    check = complaints_of(made.travels)
+    return series_driver(made, kind="axis", properties=properties, bounds=bounds, settings={}, check=check)
 
 
 ROTATOR = _driver(Rotator, {"angle": (0.0, 360.0)})

@@ -42,7 +42,7 @@ class _Link:
         serial = str(entry.address["serial"])
         if serial not in (one.get_info(rs.camera_info.serial_number) for one in context.query_devices()):
             raise ConnectionError(f"no camera with the serial number {serial} is there")  # it would wait for one
-        said = {"width": SIZE[0], "height": SIZE[1], "rate": RATE, **entry.settings, **entry.address}
+        said: dict[str, Any] = {"width": SIZE[0], "height": SIZE[1], "rate": RATE, **entry.settings, **entry.address}
         width, height, rate = (int(said[key]) for key in ("width", "height", "rate"))
         wanted.enable_device(serial)
         wanted.enable_stream(rs.stream.depth, 0, width, height, rs.format.z16, rate)

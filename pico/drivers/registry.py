@@ -15,8 +15,10 @@ from pico.diagnostics import PicoError, did_you_mean, error
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Instrument
+from pico.model.instruments.kinds import kind_of
 from pico.model.wiring import DeviceEntry
 from pico.plug_ins.calling import Interface, guarded, guarded_object, having, instance, loaded
+from pico.plug_ins.faults import CODE
 from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.drivers"
@@ -31,11 +33,21 @@ def known() -> Mapping[str, EntryPoint]:
 INTERFACE = Interface(GROUP, {"": instance(Driver)})
 
 
+def known_driver(name: str) -> Driver | None:
+    """Return a driver; None for one that is not installed, or is broken."""
+    try:
+        return driver(name)
+    except PicoError:
+        return None
+
+
 def driver(name: str) -> Driver:
-    """Return a driver, without its vendor's library; raises PicoError for a name that there is not, and for a plug-in
-    that is broken."""
+    """Return a driver, without its vendor's library; raises PicoError for a name that there is not (code `driver`), and
+    for a plug-in that is broken, or of a kind that there is not (code `plugin`)."""
     if name not in known():
-        raise PicoError(error("driver", f"there is no driver `{name[:40]}`", hint=did_you_mean(name[:40], known())))
+        near = did_you_mean(name[:40], known())
+        hint = f"{near} Or install the package that brings it" if near else "install the package that brings it"
+        raise PicoError(error("driver", f"there is no driver `{name[:40]}`", hint=hint))
     found: Driver = loaded(INTERFACE, known()[name])
     return _guarded(found, name)
 
@@ -46,7 +58,12 @@ def _guarded(found: Driver, name: str) -> Driver:
     if own_module(one.module):
         return found
 
-    make = guarded(one, found.made, having("connect", "stop", "close"), what="made")
+    try:
+        methods = kind_of(found.kind).methods
+    except PicoError as exc:
+        text = f"{one.title} is wrong: {exc.diagnostics[0].summary}"
+        raise PicoError([replace(exc.diagnostics[0], code=CODE, summary=text)]) from exc
+    make = guarded(one, found.made, having(*methods), what="made")
 
     def made(device: str, entry: DeviceEntry, bus: Bus[Any]) -> Instrument:
         return cast(Instrument, guarded_object(one, make(device, entry, bus)))

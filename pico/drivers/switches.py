@@ -20,7 +20,7 @@ from typing import Any
 from pico.base.reasons import ReasonCode
 from pico.diagnostics import PicoError, error
 from pico.drivers.bus import Bus
-from pico.drivers.driver import Driver, Kind
+from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity, SafetyState
 from pico.model.instruments.declaration import Setting
@@ -113,8 +113,7 @@ class _Watched(_Switch):
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[SwitchLink]) -> None:
         super().__init__(name, entry, bus)
-        said = entry.settings.get(WATCHDOG)
-        self._within = None if said is None else float(said)
+        self._within = float(entry.setting(WATCHDOG, 0.0)) if WATCHDOG in entry.settings else None
 
     @property
     def dead_man(self) -> float | None:
@@ -205,7 +204,7 @@ _SETTINGS = {
 }  # fmt: skip
 
 
-def _driver(kind: Kind, made: Any, prop: str) -> Driver:
+def _driver(kind: str, made: Any, prop: str) -> Driver:
     return Driver(
         kind=kind, made=made,
         opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),

@@ -64,14 +64,14 @@ def complaints(entry: DeviceEntry) -> Iterator[Complaint]:
 
 def within_of(entry: DeviceEntry) -> float:
     """Return how long a few questions to a device may take in all [s]: two late replies, and never too long."""
-    return min(LONGEST - 0.2, 2.0 + 2 * float(entry.settings.get("timeout", REPLY)))
+    return min(LONGEST - 0.2, 2.0 + 2 * float(entry.setting("timeout", REPLY)))
 
 
 def resource_options(entry: DeviceEntry) -> dict[str, Any]:
     """Return what PyVISA is told when it opens the resource of an entry."""
     from pyvisa.constants import Parity, StopBits
 
-    said = {key: entry.settings.get(key, known.default) for key, known in SETTINGS.items()}
+    said: dict[str, Any] = {key: entry.settings.get(key, known.default) for key, known in SETTINGS.items()}
     milliseconds = round(float(said["timeout"] or REPLY) * 1000)
     options = {
         "timeout": milliseconds, "open_timeout": milliseconds,
@@ -88,7 +88,7 @@ def resource_options(entry: DeviceEntry) -> dict[str, Any]:
 
 def backend_of(entry: DeviceEntry) -> str:
     """Return the VISA library of an entry, as PyVISA names it."""
-    said = str(entry.settings.get("backend", SETTINGS["backend"].default))
+    said = str(entry.setting("backend", "@py"))
     return "" if said == "@ivi" else said  # PyVISA's own name for the vendor's library
 
 
@@ -109,8 +109,8 @@ class Visa:
     def __init__(self, entry: DeviceEntry) -> None:
         import pyvisa
 
-        self._manager = pyvisa.ResourceManager(backend_of(entry))
-        self.resource: Any = self._manager.open_resource(str(entry.address["visa"]), **resource_options(entry))
+        manager = pyvisa.ResourceManager(backend_of(entry))
+        self.resource: Any = manager.open_resource(str(entry.address["visa"]), **resource_options(entry))
 
     def ask(self, question: str) -> str:
         """Return the reply to a question; raises what PyVISA raises."""
@@ -144,9 +144,9 @@ class Visa:
         return judging.identity(self.ask("*IDN?"))
 
     def close(self) -> None:
-        """Close it; also while a question hangs in it."""
+        """Close it; also while a question hangs in it. PyVISA has one manager for all: closing that one would close
+        the links of other devices, too."""
         self.resource.close()
-        self._manager.close()
 
 
 def require_read_back(name: str, what: str, wanted: object, found: object) -> None:

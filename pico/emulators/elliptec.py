@@ -1,5 +1,5 @@
 """A bus of Thorlabs Elliptec devices on a serial line, as the vendor's protocol manual describes them: rotation mounts
-ELL14 and linear stages ELL17 and ELL20.
+ELL14, linear stages ELL17 and ELL20, and sliders ELL6, ELL9 and ELL12.
 
 ASCII without terminators from the host, replies end in CRLF: `<address><two letters><hex>`. `in` who, `gs` status
 (reading it clears it), `gp` position, `ma` and `mr` moves, `ho` home, `st` stop, `gj` and `sj` the jog step, kept while
@@ -11,10 +11,13 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 
+from pico.drivers.elliptec_slider import names_of
 from pico.emulators.behind import Behind, Emulator
 from pico.emulators.motion import Motion
 from pico.emulators.serving import SerialServed
+from pico.model.instruments.kind import name_at
 from pico.model.wiring import DeviceEntry
 
 PULSES = 143360
@@ -24,7 +27,7 @@ SPEED = 430.0
 SLOWEST = 80.0
 """Of a linear stage at the lowest velocity that can be set, 45 % of 180 mm/s [mm/s]."""
 MECHANICAL_TIMEOUT, UNKNOWN_COMMAND, OUT_OF_RANGE, BUSY = 2, 3, 4, 9
-_COMMAND = re.compile(rb"([0-9A-F])(in|gs|gp|st|gj|go|ho[01]|(?:ma|mr|sj|so)[0-9A-Fa-f]{8})")
+_COMMAND = re.compile(rb"([0-9A-F])(in|gs|gp|st|gj|go|fw|bw|ho[01]|(?:ma|mr|sj|so)[0-9A-Fa-f]{8})")
 
 
 @dataclass(frozen=True)
@@ -38,23 +41,35 @@ class Kind:
     per: float
     speed: float
     moves: str
+    positions: int = 0
+    """How many named positions it has; 0 for an axis."""
 
 
 KINDS = {
     "ELL14": Kind(0x0E, 360, PULSES, 360.0, SPEED, "angle"),
     "ELL17": Kind(0x11, 28, 1024, 1.0, SLOWEST, "position"),
     "ELL20": Kind(0x14, 60, 1024, 1.0, SLOWEST, "position"),
+    "ELL6": Kind(0x06, 31, 0, 1.0, SLOWEST, "position", 2),
+    "ELL9": Kind(0x09, 96, 0, 1.0, SLOWEST, "position", 4),
+    "ELL12": Kind(0x0C, 95, 0, 1.0, SLOWEST, "position", 6),
 }
-USUAL = {"elliptec.rotator": "ELL14", "elliptec.stage": "ELL17"}
+USUAL = {"elliptec.rotator": "ELL14", "elliptec.stage": "ELL17", "elliptec.slider": "ELL9"}
 """The model that stands in for the devices of a driver."""
+
+
+NO_NAMES: Mapping[str, str] = MappingProxyType({})
 
 
 class Mount:
     """One device: what is read and written behind it is where it is [deg or mm], under the name of what it `moves`;
     `stuck`, where it is not None, is where it does not get past."""
 
-    def __init__(self, serial: str, behind: Behind, kind: Kind = KINDS["ELL14"]) -> None:
-        self.serial, self.behind, self.kind = serial, behind, kind
+    def __init__(
+        self, serial: str, behind: Behind, kind: Kind = KINDS["ELL14"], names: Mapping[str, str] = NO_NAMES
+    ) -> None:
+        """`names`: of the positions of a slider, by their numbers."""
+        self.serial, self.behind, self.kind, self._names = serial, behind, kind, names
+        self._between: float | None = None
         self._motion: Motion | None = None
         self._status, self._offset = 0, 0
         self._jog = int(behind.read("jog") or kind.pulses // 8)
@@ -63,13 +78,15 @@ class Mount:
         """Return the reply to one command, without address; '' where it comes once the motion has ended."""
         name, hexadecimal = command[:2], command[2:]
         now = self.behind.now()
-        if name in ("ma", "mr", "ho") and self._motion and not self._motion.ended(now):
+        if name in ("ma", "mr", "ho", "fw", "bw") and self._motion and not self._motion.ended(now):
             return f"GS{BUSY:02X}"
         if name in ("ma", "mr"):
             asked = _signed(hexadecimal) + (self._pulses(now) if name == "mr" else 0)
-            return self._go(asked * self.kind.per / self.kind.pulses, now)
+            return self._go(asked * self.kind.per / (self.kind.pulses or 1), now)
+        if name in ("fw", "bw"):
+            return self._stepped(name, now)
         if name == "ho":
-            return self._go(self._offset * self.kind.per / self.kind.pulses, now)
+            return self._go(self._offset * self.kind.per / (self.kind.pulses or 1), now)
         if name == "st":
             return self._stopped(now)
         return self._told(name, hexadecimal, now)
@@ -79,7 +96,7 @@ class Mount:
         motion, now = self._motion, self.behind.now()
         if motion is None:
             return ""
-        self.behind.write(self.kind.moves, motion.at(now))
+        self._write(motion.at(now))
         if not motion.ended(now):
             return ""
         self._motion = None
@@ -113,15 +130,44 @@ class Mount:
 
     def _stopped(self, now: float) -> str:
         if self._motion:
-            self.behind.write(self.kind.moves, self._motion.at(now))
+            self._write(self._motion.at(now))
             self._motion = None
         return "GS00"
 
     def _angle(self, now: float) -> float:
-        return self._motion.at(now) if self._motion else float(self.behind.read(self.kind.moves) or 0.0)
+        if self._motion:
+            return self._motion.at(now)
+        found = self.behind.read(self.kind.moves)
+        if not self.kind.positions:
+            return float(found or 0.0)
+        if self._between is not None:
+            return self._between
+        name = name_at(self._names.values(), found)
+        number = next((int(key) for key, one in self._names.items() if one == name), 1)
+        return float(self._places()[number - 1])
+
+    def _stepped(self, name: str, now: float) -> str:
+        places, at = self._places(), self._angle(now)
+        ahead = [p for p in places if p > at + 2] if name == "fw" else [p for p in reversed(places) if p < at - 2]
+        return self._go(float(ahead[0]), now) if ahead else f"GS{OUT_OF_RANGE:02X}"
+
+    def _places(self) -> list[int]:
+        """Return where the positions of a slider are [mm]."""
+        last = self.kind.positions - 1
+        return [round(n * self.kind.travel / last) for n in range(last + 1)]
+
+    def _write(self, at: float) -> None:
+        """Let the world have it where it is; a slider at its position, and nowhere in between."""
+        if not self.kind.positions:
+            self.behind.write(self.kind.moves, at)
+            return
+        number = next((n for n, place in enumerate(self._places(), 1) if abs(place - at) < 1e-6), 0)
+        self._between = None if number and str(number) in self._names else at
+        if name := self._names.get(str(number)):
+            self.behind.write(self.kind.moves, name)
 
     def _pulses(self, now: float) -> int:
-        return round(self._angle(now) / self.kind.per * self.kind.pulses)
+        return round(self._angle(now) / self.kind.per * (self.kind.pulses or 1))
 
 
 def _signed(hexadecimal: str) -> int:
@@ -167,6 +213,7 @@ def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> SerialServed:
             str(entry.identity.get("serial", "00000000")),
             behind,
             KINDS.get(entry.identity.get("model", ""), KINDS[USUAL.get(entry.driver, "ELL14")]),
+            names_of(entry),
         )
         for entry, behind in devices.values()
     }

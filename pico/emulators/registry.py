@@ -8,10 +8,11 @@ from dataclasses import replace
 from functools import cache
 from importlib.metadata import EntryPoint
 
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.emulators.behind import Behind, Emulator, Running
 from pico.model.wiring import DeviceEntry
 from pico.plug_ins.calling import Interface, guarded, having, instance, loaded
+from pico.plug_ins.faults import CODE
 from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.emulators"
@@ -40,15 +41,23 @@ def emulator(name: str) -> Emulator:
 
 
 class EmulatedBench:
-    """Emulators of a bench's devices, running; `entries` are the devices with the addresses that lead to them."""
+    """Emulators of a bench's devices, running; `entries` are the devices with the addresses that lead to them.
+    `failed`: why others have none, by device: none is named, it is not installed, or it is broken."""
 
     def __init__(self, devices: Mapping[str, DeviceEntry], behind: Callable[[str, DeviceEntry], Behind]) -> None:
-        """Start one for each link; raises PicoError, with none left running, for a device that has no emulator."""
+        """Start one for each link. Whatever else an emulator of PICO raises ends those that run."""
         self._running: list[Running] = []
         self.entries: dict[str, DeviceEntry] = {}
+        self.failed: dict[str, tuple[Diagnostic, ...]] = {}
         try:
-            for name, together in _links(devices).items():
-                started = emulator(name[0]).started({n: (entry, behind(n, entry)) for n, entry in together.items()})
+            for name, together in self._links(devices).items():
+                try:
+                    started = emulator(name[0]).started({n: (entry, behind(n, entry)) for n, entry in together.items()})
+                except PicoError as exc:
+                    if any(one.code != CODE for one in exc.diagnostics):
+                        raise
+                    self.failed |= dict.fromkeys(together, tuple(exc.diagnostics))
+                    continue
                 self._running.append(started)
                 for n, entry in together.items():
                     who = {key: said for key, said in getattr(started, "identity", {}).items() if key in entry.identity}
@@ -58,6 +67,21 @@ class EmulatedBench:
             self.close()
             raise
 
+    def _links(self, devices: Mapping[str, DeviceEntry]) -> dict[tuple[str, ...], dict[str, DeviceEntry]]:
+        """Return the devices by emulator and by what of their addresses is one link."""
+        links: dict[tuple[str, ...], dict[str, DeviceEntry]] = {}
+        for name, entry in devices.items():
+            try:
+                if not entry.emulator:
+                    raise PicoError(no_emulator(name))
+                bus = emulator(entry.emulator).bus
+            except PicoError as exc:
+                self.failed[name] = tuple(exc.diagnostics)
+                continue
+            parts = (str(entry.address.get(part, "")) for part in bus)
+            links.setdefault((entry.emulator, *parts), {})[name] = entry
+        return links
+
     def close(self) -> None:
         """End all of them."""
         for running in self._running:
@@ -66,13 +90,7 @@ class EmulatedBench:
         self._running.clear()
 
 
-def _links(devices: Mapping[str, DeviceEntry]) -> dict[tuple[str, ...], dict[str, DeviceEntry]]:
-    """Return the devices by emulator and by what of their addresses is one link."""
-    links: dict[tuple[str, ...], dict[str, DeviceEntry]] = {}
-    for name, entry in devices.items():
-        if not entry.emulator:
-            text = f"{name} has no emulator"
-            raise PicoError(error("emulator", text, hint="name one by `emulator:` of the device", address=name))
-        parts = (str(entry.address.get(part, "")) for part in emulator(entry.emulator).bus)
-        links.setdefault((entry.emulator, *parts), {})[name] = entry
-    return links
+def no_emulator(name: str) -> Diagnostic:
+    """Return what is said of a device that is left out, for it has no emulator."""
+    text = f"{name} has no emulator: it is left out, and all others are emulated"
+    return warning("emulator", text, hint="name one by `emulator:` of the device", address=name)

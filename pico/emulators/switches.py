@@ -88,12 +88,15 @@ class WatchedBox(TcpServed):
         self._dead_men.fall()
 
 
+def _property(entry: DeviceEntry) -> str:
+    """Return which property a switch is; of a driver that is not PICO's, the first that the lab maps."""
+    usual = next((wired.property for wired in entry.map.values()), "open")
+    return PROPERTIES.get(entry.driver.rpartition(".")[2], usual)
+
+
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> TcpServed:
     serial = next((str(e.identity["serial"]) for e, _ in devices.values() if "serial" in e.identity), "0")
-    switches = {
-        str(entry.address["name"]): (PROPERTIES[entry.driver.rpartition(".")[2]], behind)
-        for entry, behind in devices.values()
-    }
+    switches = {str(entry.address["name"]): (_property(entry), behind) for entry, behind in devices.values()}
     dead_men = DeadMen(switches)
     return WatchedBox(lambda: Switches(serial, switches, dead_men), dead_men)
 

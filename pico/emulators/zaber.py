@@ -21,8 +21,8 @@ class Stage:
     def __init__(self, entry: DeviceEntry, behind: Behind) -> None:
         self.serial = str(entry.identity.get("serial", "12345"))
         self.firmware = str(entry.identity.get("firmware", "7.38"))
-        self._counts = float(entry.settings.get("counts_per_unit", 1.0))
-        self._speed = float(entry.settings.get("emulated_speed", 26.0))
+        self._counts = float(entry.setting("counts_per_unit", 1.0))
+        self._speed = float(entry.setting("emulated_speed", 26.0))
         self._behind = behind
         self._motion: Motion | None = None
         self._warning, self._homed = "--", behind.read("homed") is True

@@ -244,7 +244,7 @@ def _wired(documents: list[Document], setup: Setup, found: list[Diagnostic]) -> 
     wiring, wrong = whole_wiring([(document, own) for document, own, _ in read if own], setup)
     wrong += [d for _, _, misread in read for d in misread]
     found.extend(wrong)
-    return setup if wrong else replace(setup, wiring=wiring)
+    return setup if any(one.severity == "error" for one in wrong) else replace(setup, wiring=wiring)
 
 
 def _own_types(documents: list[Document], found: list[Diagnostic]) -> tuple[dict[str, ComponentType], set[str]]:

@@ -18,6 +18,8 @@ from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
 Presence = Literal["seen", "missing", "held", "toppled"]
+LACKING = ("driver", "plugin", "kind", "emulator")
+"""Codes of problems of one device alone: its driver is not installed, or is broken, or nothing emulates it."""
 LOST = "arm-lost"
 """The code of the problem that an arm was lost since it was got ready."""
 

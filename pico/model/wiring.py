@@ -12,6 +12,8 @@ from pico.model.record import record
 
 SafetyKind = Literal["door", "curtain", "emergency_stop", "key", "interlock", "shutter"]
 
+Scalar = str | int | float | bool
+
 
 @record
 class Wired:
@@ -46,7 +48,8 @@ class DeviceEntry:
     `model`, `vendor`, `firmware`) that must answer there. `of`: the component, robot or camera that it belongs to,
     where that is not its own name. `limits`: [least, greatest] of the driver's properties, in their units, kept by the
     driver. `map`: which property each tunable and measurable is. `settings`: what else the driver is told. `emulator`:
-    what stands in for it with --emulate, where that is not what the driver names."""
+    what stands in for it with --emulate, where that is not what the driver names. `package`: which package brings the
+    driver, to be named where that is not installed."""
 
     driver: str
     address: Mapping[str, str | int] = field(default_factory=dict)
@@ -54,13 +57,19 @@ class DeviceEntry:
     of: str | None = None
     limits: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     map: Mapping[str, Wired] = field(default_factory=dict)
-    settings: Mapping[str, str | int | float | bool] = field(default_factory=dict)
+    settings: Mapping[str, Scalar | Mapping[str, Scalar]] = field(default_factory=dict)
     emulator: str | None = None
+    package: str | None = None
 
     def __post_init__(self) -> None:
         for name, (low, high) in self.limits.items():
             if low > high:
                 raise ValueError(f"the limits of `{name}` are [least, greatest]")
+
+    def setting(self, name: str, default: Scalar) -> Scalar:
+        """Return a setting that is no mapping; `default` without it."""
+        said = self.settings.get(name, default)
+        return default if isinstance(said, Mapping) else said
 
 
 @record

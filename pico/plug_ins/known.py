@@ -16,14 +16,15 @@ if TYPE_CHECKING:
 KINDS: Mapping[str, str] = {
     "pico.algorithms": "algorithm", "pico.commands": "command", "pico.devices": "backend", "pico.drivers": "driver",
     "pico.elements": "optical element", "pico.emulators": "emulator", "pico.goals": "goal", "pico.kernels": "kernel",
-    "pico.primitives": "primitive", "pico.recipe_steps": "recipe step", "pico.routines": "routine",
-    "pico.server_routes": "server route", "pico.sim.primitives": "simulated primitive",
+    "pico.kinds": "kind of instrument", "pico.primitives": "primitive", "pico.recipe_steps": "recipe step",
+    "pico.routines": "routine", "pico.server_routes": "server route", "pico.sim.primitives": "simulated primitive",
 }  # fmt: skip
 """What a plug-in of each group of entry points is called."""
 FOLDERS: Mapping[str, str] = {
     "pico.algorithms": "pico.optimize.algorithms", "pico.elements": "pico.optics.elements",
     "pico.goals": "pico.bench.ready.goals",
-    "pico.kernels": "pico.kernels.standard", "pico.recipe_steps": "pico.recipes.steps",
+    "pico.kernels": "pico.kernels.standard", "pico.kinds": "pico.drivers.kinds",
+    "pico.recipe_steps": "pico.recipes.steps",
     "pico.server_routes": "pico.server.routes",
 }  # fmt: skip
 """The folders of PICO beside whose files one more can be put."""

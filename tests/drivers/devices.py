@@ -41,6 +41,24 @@ async def _power(meter: Any) -> float:
     return float(found.value)
 
 
+async def _volts(number: Any) -> float:
+    return float(_known(await number.number("value")))
+
+
+async def _set(number: Any, value: float) -> float:
+    return float(_known(await number.set_number("value", value)))
+
+
+async def _position(choice: Any) -> str:
+    return str(_known(await choice.position()))
+
+
+def _known(found: Any) -> Any:
+    if found.unknown:
+        raise PicoError(error(found.unknown, found.why, address="it"))
+    return found.value
+
+
 async def _safe(safety: Any) -> bool | None:
     found: bool | None = (await safety.read()).safe
     return found
@@ -88,6 +106,23 @@ CASES = {
         DeviceEntry(driver="pymeasure.pm100", emulator="scpi.meter", address={"visa": ""}, identity=WHO,
                     limits={"wavelength": (400, 700)}),
         {"power": 0.0012}, _power, 0.0012, other=0.0034, beyond=lambda meter: meter.power(wavelength=900.0)),
+    "scpi.number": Case(
+        DeviceEntry(driver="scpi.number", emulator="scpi.values", address={"visa": ""}, identity=WHO,
+                    limits={"value": (-10, 10)},
+                    settings={"read": "MEAS:VOLT?", "set": "VOLT {}", "unit": "V", "sigma": 0.001}),
+        {"value": 1.5}, _volts, 1.5, other=2.5, moves=lambda number: _set(number, 4.0),
+        moved=("value", 4.0), beyond=lambda number: number.set_number("value", 11.0)),
+    "scpi.choice": Case(
+        DeviceEntry(driver="scpi.choice", emulator="scpi.values", address={"visa": ""}, identity=WHO,
+                    settings={"read": "POS?", "set": "POS {}", "positions": {"1": "open", "2": "nd1", "3": "nd2"}}),
+        {"position": "open"}, _position, "open", other="nd1", moves=lambda choice: choice.move_to("nd2"),
+        moved=("position", "nd2"), beyond=lambda choice: choice.move_to("nd9")),
+    "elliptec.slider": Case(
+        DeviceEntry(driver="elliptec.slider", emulator="elliptec", address={"port": "", "bus": "4"},
+                    identity={"serial": "10900042", "model": "ELL9"},
+                    settings={"positions": {"1": "open", "2": "nd1", "3": "nd2"}}),
+        {"position": "open"}, _position, "open", other="nd1", moves=lambda choice: choice.move_to("nd2"),
+        moved=("position", "nd2"), beyond=lambda choice: choice.move_to("nd9")),
     "scpi.laser": Case(
         DeviceEntry(driver="scpi.laser", emulator="scpi.laser", address={"visa": ""}, identity=WHO),
         {"emission": False}, lambda laser: laser.emitting(), False, other=True,

@@ -13,8 +13,8 @@ from typing import Any
 import pytest
 
 from pico.backends.conversions import conversion_of
-from pico.backends.hardware.tunables import Motorized
 from pico.diagnostics import PicoError
+from pico.drivers.driven import Motorized
 from pico.drivers.registry import Buses, driver
 from pico.emulators.behind import Alone
 from pico.emulators.elliptec import KINDS, Mount, MountBus

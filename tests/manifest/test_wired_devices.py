@@ -113,7 +113,7 @@ def test_one_relay_is_of_one_device_and_contacts_may_be_read_by_several() -> Non
 """
     assert wrong(HEAD + box) == []
     lamp = box[: box.index("  shut_sensor")].replace("shut:", "lamp:").replace("scpi.shutter", "scpi.lamp")
-    lamp = lamp.replace(", channel: 3", "")
+    lamp = lamp.replace(", channel: 3", "") + "    map: {emission: {property: on}}\n"
     assert "relay 1, where shut is" in only(HEAD + box + lamp)[1]
 
 
@@ -203,3 +203,9 @@ def test_a_plug_ins_driver_that_declares_no_settings_takes_any() -> None:
         address={"port": "its port"}, bus=("port",),
     )  # fmt: skip
     assert [*plain.complaints(DeviceEntry(driver="own", address={"port": "x"}, settings={"any": 1}))] == []
+
+
+def test_a_kind_whose_usual_tunable_the_part_lacks_needs_a_map() -> None:
+    at, said, hint = only(HEAD + BOX[: BOX.index("  laser_box")].replace("of: laser", "of: p1"))
+    assert said == "p1 has no `shutter`, which a shutter is if the lab has no `map`"
+    assert at.startswith("devices.yaml:7:") and "map: {NAME: {property: open}}" in hint

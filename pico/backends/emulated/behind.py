@@ -7,12 +7,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from pico.backends.attempt import Failed
-from pico.backends.conversions import conversion_of, mapped
+from pico.backends.conversions import conversion_of
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
+from pico.model.instruments.kind import value_at
+from pico.model.instruments.mapping import mapped
 from pico.model.quantities import Value, convert
 from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
@@ -61,7 +63,7 @@ class OfPart:
     ) -> None:
         self._world, self._device, self._component = world, device, component
         self._kind = world.setup.type_of(component)
-        setup = world.setup
+        setup, self._names = world.setup, about.kind == "choice"
         self._is: dict[str, tuple[str, Conversion | None]] = {
             wired.property: (name, conversion_of(setup, about, entry, component, name, wired))
             for name, wired in mapped(setup, about, entry, component).items()
@@ -77,6 +79,8 @@ class OfPart:
         if what in ("frame", "power"):
             return self._measured("image" if what == "frame" else self._is.get(what, ("power", None))[0])
         tunable, wired = self._is.get(what, (what, None))
+        if what in self._is and tunable not in self._kind.tunables:
+            return self._measured(tunable)
         if tunable not in self._kind.tunables:
             return self._world.recalled(self._device, what)
         value = self._world.value(self._component, tunable)
@@ -91,6 +95,8 @@ class OfPart:
             self._world.remember(self._device, what, value)
             return
         there: Value = wired.to_lab(value) if wired and _number(value) else value
+        if self._names and isinstance(value, str):
+            there = found if (found := value_at(self._kind.tunables[tunable], value)) is not None else value
         if tunable == "shutter":
             there = "open" if value else "closed"
         self._world.set_value(self._component, tunable, there)

@@ -11,6 +11,7 @@ from pico.diagnostics import PicoError, error
 from pico.drivers.registry import driver
 from pico.emulators.behind import Alone, Behind
 from pico.emulators.registry import EmulatedBench
+from pico.model.instruments.kinds import kind_of
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
 from pico.places.bench import BenchPlace
@@ -23,7 +24,7 @@ def brought_up(
     setup: Setup, place: BenchPlace, entries: dict[str, DeviceEntry]
 ) -> tuple[EmulatedWorld, EmulatedBench]:  # fmt: skip
     """Start an emulator for each link of a lab's devices, and return the world behind them with the running bench,
-    whose `entries` lead to them. Raises PicoError for a device without emulator, and a world that can't be read."""
+    whose `entries` lead to them, and whose `failed` have none. Raises PicoError for a world that can't be read."""
     pace = _pace()
     world = EmulatedWorld(setup, place, pace)
     eyes = SharedEyes(world)
@@ -33,7 +34,7 @@ def brought_up(
         about, of = driver(entry.driver), entry.of or name
         if of in setup.lab.robots:
             return OfArm(world, of)
-        if about.kind == "safety input":
+        if kind_of(about.kind).role == "safety input":
             return OfInput(world, name)
         if of in setup.lab.inventory:
             return OfPart(world, name, entry, of, about)
@@ -45,7 +46,7 @@ def brought_up(
 
 def _paced(entry: DeviceEntry, pace: float) -> DeviceEntry:
     """Return the entry of an arm with the pace at which it is driven: its driver sends set-points by its own clock."""
-    if pace == 1.0 or driver(entry.driver).kind != "arm":
+    if pace == 1.0 or kind_of(driver(entry.driver).kind).role != "arm":
         return entry
     return replace(entry, settings={**entry.settings, "pace": pace})
 

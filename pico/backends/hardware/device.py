@@ -208,6 +208,8 @@ class HardwareDevice:
         if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
             text = f"no device of this bench has {', '.join(without)}: nobody compares or sets that"
             found.append(Diagnostic("note", "no-device", text))
+        for name, why in sorted(bench.lacking.items()):
+            found += [replace(one, severity="warning", address=name) for one in why]
         if most is not None:
             text = f"nobody has tried yet how this bench stops: tools move at {most:g} mm/s at most"
             found.append(Diagnostic("note", CODE, text, hint="`pico commission` walks through it"))

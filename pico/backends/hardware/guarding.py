@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 
 from pico.backends.attempt import Failed
 from pico.backends.guard.hearing import unsafe
 from pico.backends.guard.verdict import LIGHT, MOTION
+from pico.backends.hardware.instruments import Instruments
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.protocols import SafetyInput, SafetyState
 from pico.model.operation import Operation
@@ -24,6 +26,17 @@ def concerned(setup: Setup, operation: Operation) -> frozenset[SafetyKind]:
     """Return the kinds of safety inputs that must be safe for an operation."""
     moves = MOTION if operation.robot is not None or operation.kind.parks else frozenset[SafetyKind]()
     return moves | (LIGHT if lets_out(setup, operation) else frozenset[SafetyKind]())
+
+
+def require_known_arms(setup: Setup, bench: Instruments, operation: Operation) -> None:
+    """Raise Failed for a motion of any arm, and for light that is let out, if an arm can't be had: nobody knows where
+    it stands then, and what it holds."""
+    moves = operation.robot is not None or operation.kind.parks
+    if not bench.armless or not (moves or lets_out(setup, operation)):
+        return
+    robot, why = next(iter(sorted(bench.armless.items())))
+    text = f"{why[0].summary}; without {robot} no arm moves, and no light is let out, for nobody knows where it stands"
+    raise Failed(replace(why[0], severity="error", summary=text, address=operation.address))
 
 
 async def tripped(inputs: Inputs, kinds: Iterable[SafetyKind]) -> Diagnostic | None:

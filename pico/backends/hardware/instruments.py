@@ -3,20 +3,26 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, cast
 
-from pico.backends.conversions import conversion_of, mapped
+from pico.backends.conversions import conversion_of
 from pico.backends.hardware.settings import Settings
-from pico.backends.hardware.tunables import Driven, Emitting, Exposed, Lit, Motorized, Shut, Tuned
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.drivers.driven import Exposed
 from pico.drivers.driver import Driver
-from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, PowerMeter, SafetyInput
+from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, SafetyInput
+from pico.drivers.stand_in import Lacking, StandIn
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
+from pico.model.instruments.kind import Driven, Measured, Point
+from pico.model.instruments.kinds import kind_of
+from pico.model.instruments.mapping import mapped
+from pico.model.observation import LACKING
 from pico.model.setup import Setup
-from pico.model.wiring import DeviceEntry, SafetyEntry
+from pico.model.wiring import DeviceEntry, SafetyEntry, Wired
 
 if TYPE_CHECKING:
     from pico.drivers.registry import Buses
@@ -24,9 +30,9 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Metered:
-    """A power meter, and what a lab makes of the watts that it reads."""
+    """What reads a measurable, and what a lab makes of the number that it reads."""
 
-    meter: PowerMeter
+    measured: Measured
     conversion: Conversion
 
 
@@ -34,7 +40,8 @@ class Metered:
 class Instruments:
     """The instruments of a bench: arms and grippers by robot, cameras over the bench by name, cameras in the beam
     (`sensors`) by component, tunables and meters by address, safety inputs by name. `all`: every one, by device;
-    `maturity`: how far the driver of each was tried; `who`: who answered, once they are connected."""
+    `lacking`: why one of them can't be had, by device; `maturity`: how far the driver of each was tried; `who`: who
+    answered, once they are connected."""
 
     arms: dict[str, Arm] = field(default_factory=dict)
     grippers: dict[str, Gripper] = field(default_factory=dict)
@@ -44,14 +51,18 @@ class Instruments:
     meters: dict[str, Metered] = field(default_factory=dict)
     inputs: dict[str, tuple[SafetyEntry, SafetyInput]] = field(default_factory=dict)
     all: dict[str, Instrument] = field(default_factory=dict)
+    lacking: dict[str, tuple[Diagnostic, ...]] = field(default_factory=dict)
+    armless: dict[str, tuple[Diagnostic, ...]] = field(default_factory=dict)
+    """Why the arm of a robot, or its gripper, can't be had: nobody knows where it stands then, or what it holds."""
     maturity: dict[str, str] = field(default_factory=dict)
     who: dict[str, Identity] = field(default_factory=dict)
 
     async def connect(self) -> None:
-        """Connect to every one of them; raises PicoError for all that fail at once."""
-        found = await asyncio.gather(*(one.connect() for one in self.all.values()), return_exceptions=True)
+        """Connect to every one of them that there is; raises PicoError for all that fail at once."""
+        there = {name: one for name, one in self.all.items() if name not in self.lacking}
+        found = await asyncio.gather(*(one.connect() for one in there.values()), return_exceptions=True)
         wrong: list[Diagnostic] = []
-        for name, result in zip(self.all, found, strict=True):
+        for name, result in zip(there, found, strict=True):
             if isinstance(result, PicoError):
                 wrong += result.diagnostics
             elif isinstance(result, BaseException):
@@ -71,63 +82,74 @@ class Instruments:
 def add(
     setup: Setup, found: Instruments, name: str, entry: DeviceEntry, about: Declaration, one: Any, settings: Settings
 ) -> None:
-    """Put an instrument where the lab has it."""
-    of, kind = entry.of or name, about.kind
+    """Put an instrument where the lab has it; raises PicoError for a kind that there is not."""
+    of, role = entry.of or name, kind_of(about.kind).role
     found.all[name] = one
-    if kind == "arm":
+    if name in found.lacking and role in ("arm", "gripper", "camera") and of not in setup.lab.inventory:
+        return  # nothing is known of an arm that can't be had, and a camera that can't be had sees nothing
+    if role == "arm":
         found.arms[of] = one
-    elif kind == "gripper":
+    elif role == "gripper":
         found.grippers[of] = one
-    elif kind in ("camera", "depth camera") and of not in setup.lab.inventory:
+    elif role == "camera" and of not in setup.lab.inventory:
         found.cameras[of] = one
-    elif kind in ("camera", "depth camera"):
+    elif role == "camera":
         found.sensors[of] = one
         for tunable in ("exposure", "gain"):
             if tunable in setup.type_of(of).tunables:
                 kept = setup.type_of(of).tunables[tunable]
                 found.tunables[f"{of}.{tunable}"] = Exposed(one, settings, f"{of}.{tunable}", kept)
-    elif kind != "safety input":
+    elif role == "part" and of in setup.lab.inventory:
         for key, wired in mapped(setup, about, entry, of).items():
-            _put(
-                found,
-                f"{of}.{key}",
-                kind,
-                one,
-                wired.property,
-                conversion_of(setup, about, entry, of, key, wired),
-                settings,
-            )
+            _put(setup, found, entry, about, one, of, key, wired, settings)
 
 
 def _put(
-    found: Instruments, address: str, kind: str, one: Any, prop: str, conversion: Conversion, settings: Settings
-) -> None:
+    setup: Setup, found: Instruments, entry: DeviceEntry, about: Declaration, one: Any, of: str, key: str,
+    wired: Wired, settings: Settings,
+) -> None:  # fmt: skip
     """Put what sets or reads a tunable or measurable where the lab has it."""
-    if kind == "axis":
-        found.tunables[address] = Motorized(one, conversion)
-    elif kind == "power meter" and prop == "wavelength":
-        found.tunables[address] = Tuned(one, conversion)
-    elif kind == "power meter":
-        found.meters[address] = Metered(one, conversion)
-    else:
-        switches = {"shutter": Shut, "laser": Emitting}
-        found.tunables[address] = switches[kind](one) if kind in switches else Lit(one, settings, address)
+    kind, address = kind_of(about.kind), f"{of}.{key}"
+    point = Point(
+        instrument=one, address=address, property=wired.property,
+        conversion=conversion_of(setup, about, entry, of, key, wired), tunable=setup.type_of(of).tunables.get(key),
+        memory=settings, writable=about.writable(entry, wired.property),
+    )  # fmt: skip
+    if (driven := kind.drives(point)) is not None:
+        found.tunables[address] = driven
+    elif (measured := kind.measures(point)) is not None:
+        found.meters[address] = Metered(measured, point.conversion)
 
 
-def wired(setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settings: Settings) -> Instruments:
-    """Return the instruments of a lab's devices, none of them connected; raises PicoError for all that can't be had."""
+def wired(
+    setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settings: Settings,
+    without: Mapping[str, Sequence[Diagnostic]] = MappingProxyType({}),
+) -> Instruments:  # fmt: skip
+    """Return the instruments of a lab's devices, none of them connected. `without`: why some can't be had. These, and
+    what has a driver that is not installed, or is broken, answer every call with the reason (`lacking`). Raises
+    PicoError for an entry that does not go with its driver, and for an extra that is missing."""
     from pico.drivers.registry import driver
 
     found, wrong = Instruments(), list[Diagnostic]()
     for name, entry in entries.items():
+        about: Driver | None = None
         try:
-            about: Driver = driver(entry.driver)
-            one = buses.opened(name, entry)
+            about = driver(entry.driver)
+            found.maturity[name] = about.maturity
+            if name in without:
+                raise PicoError(without[name])
+            add(setup, found, name, entry, about, buses.opened(name, entry), settings)
         except PicoError as exc:
-            wrong += exc.diagnostics
-            continue
-        found.maturity[name] = about.maturity
-        add(setup, found, name, entry, about, one, settings)
+            if not all(one.code in LACKING for one in exc.diagnostics):
+                wrong += exc.diagnostics
+                continue
+            found.lacking[name] = told = tuple(_of_device(name, one) for one in exc.diagnostics)
+            if (entry.of or name) in setup.lab.robots:
+                found.armless[entry.of or name] = told
+            if about is not None:
+                add(setup, found, name, entry, about, StandIn(told), settings)
+            else:
+                _add_unknown(setup, found, name, entry, StandIn(told))
     wiring = setup.wiring
     for name, said in (wiring.safety_inputs if wiring else {}).items():
         if said.device in found.all:
@@ -137,10 +159,33 @@ def wired(setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settin
     return found
 
 
+def _of_device(name: str, why: Diagnostic) -> Diagnostic:
+    text = why.summary if name in why.summary else f"{name} can't be used: {why.summary}"
+    return replace(why, summary=text, address=name)
+
+
+UNKNOWN = "unknown"
+"""The kind of a device whose driver is not installed, or is broken: it may be any."""
+
+
+def _add_unknown(setup: Setup, found: Instruments, name: str, entry: DeviceEntry, one: Any) -> None:
+    """Put what stands in for an instrument of unknown kind wherever the lab may have it."""
+    of = entry.of or name
+    found.all[name] = one
+    if of in setup.lab.inventory:
+        tunables = setup.type_of(of).tunables
+        for key in entry.map:
+            if key in tunables:
+                found.tunables[f"{of}.{key}"] = Lacking(one)
+            else:
+                found.meters[f"{of}.{key}"] = Metered(Lacking(one), Conversion(wired=entry.map[key]))
+
+
 def require_whole(setup: Setup, entries: Mapping[str, DeviceEntry], kinds: Mapping[str, str]) -> None:
     """Raise PicoError where a bench lacks what nothing works without: its arms with their grippers, and cameras over
     the table; `kinds`: what each device is."""
     has = {(kinds.get(name, ""), entry.of or name) for name, entry in entries.items()}
+    has |= {(kind, of) for known, of in has if known == UNKNOWN for kind in ("arm", "gripper", "camera")}
     missing = []
     for name, robot in sorted(setup.lab.robots.items()):
         if ("arm", name) not in has:

@@ -14,9 +14,9 @@ from pico.backends.guard.note import Ended, Frozen, Note
 from pico.backends.guard.verdict import Trip
 from pico.backends.guard.watch import Guard, Told, Watched
 from pico.backends.hardware.instruments import Instruments
-from pico.backends.hardware.tunables import Emitting, Shut, word
 from pico.base import clock
 from pico.diagnostics import PicoError
+from pico.drivers.driven import Emitting, Shut, word
 from pico.drivers.protocols import Arm, DeadMan, Laser, Shutter
 from pico.model.quantities import Value
 from pico.model.setup import Setup

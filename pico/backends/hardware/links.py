@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -13,7 +13,8 @@ from pico.backends.hardware.instruments import Instruments, wired
 from pico.backends.hardware.lights import Lights
 from pico.backends.hardware.settings import Settings
 from pico.backends.instruments import emulated
-from pico.drivers.registry import Buses, driver
+from pico.diagnostics import Diagnostic
+from pico.drivers.registry import Buses, known_driver
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
 from pico.places.bench import BenchPlace
@@ -90,8 +91,8 @@ class Links:
         """Return the robots of a real bench whose driver was never tried on a device."""
         if self._bring_up is not None:
             return frozenset()
-        found = ((entry.of or name, driver(entry.driver)) for name, entry in self.entries.items())
-        return frozenset(of for of, about in found if about.kind == "arm" and about.maturity != "on device")
+        found = ((entry.of or name, known_driver(entry.driver)) for name, entry in self.entries.items())
+        return frozenset(of for of, about in found if about and about.kind == "arm" and about.maturity != "on device")
 
     @property
     def connected(self) -> Instruments | None:
@@ -113,7 +114,8 @@ class Links:
     def _wired(self) -> Instruments:
         """Return the instruments over the links of this bench, connected or not."""
         if self._made is None:
-            self._made = wired(self.setup, self._reached(), self._buses, Settings(self.place))
+            reached = self._reached()
+            self._made = wired(self.setup, reached, self._buses, Settings(self.place), self._failed())
         return self._made
 
     def lights(self) -> Lights:
@@ -140,7 +142,11 @@ class Links:
             return self.entries
         if self.emulators is None:
             self.world, self.emulators = self._bring_up(self.setup, self.place, emulated(self.entries))
-        return self.emulators.entries
+        return {**self.entries, **self.emulators.entries}
+
+    def _failed(self) -> Mapping[str, Sequence[Diagnostic]]:
+        """Return why devices have no emulator, by device."""
+        return self.emulators.failed if self.emulators is not None else {}
 
     async def close(self) -> None:
         """Let go of every link, and end what emulates."""

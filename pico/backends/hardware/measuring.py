@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pico.backends.attempt import Failed
-from pico.backends.hardware.instruments import Instruments
+from pico.backends.hardware.instruments import Instruments, Metered
 from pico.backends.hardware.pictures import grayed
-from pico.backends.hardware.powers import Values, color_at, power_reading
+from pico.backends.hardware.powers import Values, color_at, power_reading, read_as
 from pico.backends.measured import Reading, measurement
 from pico.diagnostics import PicoError, error
 from pico.kernels.frame import full_pixels
@@ -107,7 +107,7 @@ class Readers:
             (over and name == "frame" and component in bench.cameras, lambda: self._frame(component)),
             (not over and name == "pose" and self._marked(component), lambda: self._pose(component)),
             (address in bench.tunables, lambda: self._setpoint(address)),
-            (address in bench.meters, lambda: self._power(component, name, values)),
+            (address in bench.meters, lambda: self._metered(component, name, values)),
             (component in bench.sensors and name in IMAGES, lambda: self.image(component)),
             (
                 component in bench.sensors and self._kernel(component, name) != "",
@@ -157,13 +157,18 @@ class Readers:
             raise Failed(error("unread", f"{address} can't be read back: nobody knows it", address=address))
         return Reading(live.value)
 
-    async def _power(self, component: str, name: str, values: Values) -> Reading:
+    async def _metered(self, component: str, name: str, values: Values) -> Reading:
         metered = self._bench.meters[f"{component}.{name}"]
+        if metered.measured.colored:
+            return await self._power(metered, component, values)
+        return read_as(await metered.measured.read(), metered.conversion)
+
+    async def _power(self, metered: Metered, component: str, values: Values) -> Reading:
         own = self._bench.tunables.get(f"{component}.wavelength")
         before = await own.read() if own is not None else None
         color = await asyncio.to_thread(lambda: color_at(self._setup, values, self._poses(), component))
         try:
-            readout = await metered.meter.power(wavelength=color.wavelength)
+            readout = await metered.measured.read(color.wavelength)
         except PicoError as exc:
             if exc.diagnostics[0].code != "device-limit":
                 raise

@@ -7,9 +7,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from pico.backends.hardware.device import HardwareDevice
-from pico.backends.hardware.instruments import require_whole
+from pico.backends.hardware.instruments import UNKNOWN, require_whole
 from pico.backends.hardware.links import BringUp, links
-from pico.drivers.registry import driver
+from pico.drivers.registry import known_driver
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
 
@@ -21,7 +21,8 @@ def bench(
     `bring_up`: of the one that is emulated."""
     setup = _with_wiring(setup, place.root)
     entries = setup.wiring.devices if setup.wiring else {}
-    require_whole(setup, entries, {device: driver(entry.driver).kind for device, entry in entries.items()})
+    found = {device: known_driver(entry.driver) for device, entry in entries.items()}
+    require_whole(setup, entries, {device: about.kind if about else UNKNOWN for device, about in found.items()})
     return HardwareDevice(setup, place, links(setup, place, bring_up), fidelity, clock=clock)
 
 

@@ -69,11 +69,18 @@ def power_reading(readout: Readout, color: Color, conversion: Conversion, respon
     """Return what a meter's readout is in the lab's unit. `responds`: the tunable of the meter's type that tells for
     which wavelengths it is calibrated."""
     found, doubt = corrected(readout, color, responds)
-    if found.unknown is not None or not isinstance(found.value, int | float):
-        return Reading(None, unknown=found.why, reason=found.unknown)
-    sigma = None if found.sigma is None else conversion.spread(found.sigma)
-    value = conversion.to_lab(float(found.value))
-    return Reading(value, sigma=sigma, saturated="", conditions={"wavelength": doubt})
+    reading = read_as(found, conversion)
+    return reading if reading.unknown else replace(reading, saturated="", conditions={"wavelength": doubt})
+
+
+def read_as(readout: Readout, conversion: Conversion) -> Reading:
+    """Return what a readout is in the lab's unit, with its sigma; a name or a truth value as it is."""
+    if readout.unknown is not None:
+        return Reading(None, unknown=readout.why, reason=readout.unknown)
+    if isinstance(readout.value, str | bool) or readout.value is None:
+        return Reading(readout.value)
+    sigma = None if readout.sigma is None else conversion.spread(readout.sigma)
+    return Reading(conversion.to_lab(float(readout.value)), sigma=sigma)
 
 
 def corrected(readout: Readout, color: Color, responds: Tunable | None) -> tuple[Readout, str]:

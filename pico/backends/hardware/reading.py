@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from pico.backends.hardware.instruments import Instruments
-from pico.backends.hardware.tunables import UNKNOWN
 from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.drivers.driven import UNKNOWN
 from pico.drivers.protocols import Grip, SafetyState
-from pico.model.observation import LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
+from pico.model.observation import LACKING, LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
 from pico.motion.types import Joints
@@ -53,7 +53,7 @@ async def told(bench: Instruments) -> Told:
             text = f"{name} was lost, for {state.lost}, and was found again"
             problems.append(warning(LOST, text, hint="it is got ready again by the next run", address=name))
     for address, found in {**values, **inputs}.items():
-        if isinstance(found, PicoError):
+        if isinstance(found, PicoError) and found.diagnostics[0].code not in LACKING:  # told once a device
             said = found.diagnostics[0]
             problems.append(
                 warning("unread", f"nobody can read {address}: {said.summary}", hint=said.hint, address=address)

@@ -15,16 +15,16 @@ from pico.backends.device import Began
 from pico.backends.guard.verdict import Trip
 from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
-from pico.backends.hardware.guarding import concerned, require_safe, until_tripped
+from pico.backends.hardware.guarding import concerned, require_known_arms, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
-from pico.backends.hardware.tunables import Driven
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
 from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.drivers.protocols import Arm
+from pico.model.instruments.kind import Driven
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.pose import Pose
@@ -93,6 +93,7 @@ class HardwareSession:
         failure: Failed | None = None
         try:
             self._require_running()
+            require_known_arms(self._setup, self._bench, operation)
             data = await self._guarded(operation, lambda: self._act(operation, key))
             if self._light_ended and operation.primitive in ("measure", "auto_range"):
                 raise Failed(self._light_ended)  # it may have been measured in the dark

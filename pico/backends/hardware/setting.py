@@ -11,11 +11,11 @@ from pico.backends import checks
 from pico.backends.attempt import Failed
 from pico.backends.hardware.failing import failed
 from pico.backends.hardware.instruments import Instruments
-from pico.backends.hardware.tunables import Driven
 from pico.backends.measured import Reading
 from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
 from pico.diagnostics import PicoError, error
 from pico.model.diff import value_distance
+from pico.model.instruments.kind import Driven
 from pico.model.operation import Operation
 from pico.model.record import as_json
 from pico.model.setup import Setup

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from pico.bench.commissioning.standing import AtBench, Found
+from pico.diagnostics import PicoError
 from pico.drivers.checking import reading
 from pico.drivers.registry import driver
 from pico.model.record import as_json
@@ -12,6 +15,8 @@ def devices(at: AtBench) -> Found:
     """Every device of the lab's files answers, is the one that they name, and can be read. Raises PicoError."""
     links = at.device.links
     bench = at.bench.wait(links.instruments())
+    if lacking := [replace(one, severity="error") for why in bench.lacking.values() for one in why]:
+        raise PicoError(lacking)
     found = {
         name: {
             "driver": entry.driver,

@@ -35,7 +35,7 @@ class XArmGripper:
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Link]) -> None:
         """Open nothing yet."""
         self.name = name
-        self._stroke = float(entry.settings.get("stroke", _STROKE))
+        self._stroke = float(entry.setting("stroke", _STROKE))
         self._line = Line(name, bus, entry.identity, self._identified)
         self._enabled: Link | None = None
 

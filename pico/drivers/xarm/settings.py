@@ -53,9 +53,9 @@ class XArmSettings:
 
 def settings(name: str, entry: DeviceEntry) -> XArmSettings:
     """Return the settings of an entry; raises PicoError with all that is wrong with them."""
-    said = {**{key: one.default for key, one in SETTINGS.items()}, **entry.settings}
+    said: dict[str, Any] = {**{key: one.default for key, one in SETTINGS.items()}, **entry.settings}
     wrong = [f"`{key}` is no setting of an xArm" for key in said if key not in SETTINGS]
-    wrong += [f"`{key}` {text}: {one.about}" for key, one in SETTINGS.items() if (text := one.complaint(said[key]))]  # type: ignore[arg-type]
+    wrong += [f"`{key}` {text}: {one.about}" for key, one in SETTINGS.items() if (text := one.complaint(said[key]))]
     if wrong:
         raise PicoError([error("device", f"{name}: {text}", address=name) for text in wrong])
     tool, follow = str(said["tool"]), str(said["follow"])

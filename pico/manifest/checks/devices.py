@@ -5,31 +5,41 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from functools import cache
 
-from pico.diagnostics import Diagnostic, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.manifest.text.places import where, where_key
 from pico.manifest.text.tree import Document
+from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import same_dimension
 from pico.model.instruments.declaration import Declaration
+from pico.model.instruments.kind import value_at
+from pico.model.instruments.kinds import kind_of
+from pico.model.instruments.mapping import mapped
 from pico.model.quantities import QuantityError, dimension
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wired
+from pico.plug_ins.calling import Interface, instance, loaded
+from pico.plug_ins.known import entries
 
 _AT_VALUE = ("address", "settings", "driver", "map")
 """What is wrong with one of these stands at its value, and not at its key."""
 
 
-@cache
-def declaration(name: str) -> Declaration | None:
-    """Return what a driver declares of itself; None for one that is not installed, or can't be imported."""
-    from importlib.metadata import entry_points
+_INTERFACE = Interface("pico.drivers", {"": instance(Declaration)})
 
-    for entry in entry_points(group="pico.drivers", name=name):
-        try:
-            found = entry.load()
-        except Exception:  # what a plug-in raises; whoever opens it is told
-            return None
-        return found if isinstance(found, Declaration) else None
-    return None
+
+@cache
+def declaration(name: str) -> tuple[Declaration | None, tuple[Diagnostic, ...]]:
+    """Return what a driver declares of itself, None for one that is not installed, or is broken; and what is wrong
+    with a plug-in."""
+    known = entries("pico.drivers")
+    if name not in known:
+        return None, ()
+    try:
+        found: Declaration = loaded(_INTERFACE, known[name])
+        kind_of(found.kind)
+    except PicoError as exc:
+        return None, tuple(exc.diagnostics)
+    return found, ()
 
 
 def check_entry(
@@ -43,8 +53,8 @@ def check_entry(
         yield error("device", f"{name}: {one.text}", hint=one.hint, source=at)
     owner = entry.of or name
     if owner in setup.lab.inventory:
-        for key, wired in entry.map.items():
-            if wired.property in about.properties:
+        for key, wired in mapped(setup, about, entry, owner).items():
+            if wired.property in about.properties_of(entry):
                 yield from _mapped(document, name, entry, about, setup, owner, key, wired)
 
 
@@ -52,17 +62,59 @@ def _mapped(
     document: Document, name: str, entry: DeviceEntry, about: Declaration, setup: Setup, owner: str, key: str,
     wired: Wired,
 ) -> Iterator[Diagnostic]:  # fmt: skip
-    kind, at = setup.type_of(owner), where(document, "devices", name, "map", key)
+    kind, path = setup.type_of(owner), ("map", key) if key in entry.map else ("driver",)
+    at = where(document, "devices", name, *path)
     tunable = kind.tunables.get(key)
     units = {n: t.unit for n, t in kind.tunables.items()} | {n: m.unit for n, m in kind.measurables.items()}
     own = about.unit(entry, wired.property)
     if key not in units:
-        return  # told already
-    if about.kind == "axis" and tunable is not None and tunable.datatype != "float":
-        text = f"{owner}.{key} is a {tunable.datatype}, and {name} is an axis: it drives to numbers"
-        yield error("value", text, hint="map a tunable of datatype float", source=at)
+        if key not in entry.map:  # else told already
+            text = f"{owner} has no `{key}`, which {_with_article(about.kind)} is if the lab has no `map`"
+            hint = f"`map: {{NAME: {{property: {wired.property}}}}}`, or name another component by `of:`"
+            yield error("unknown-tunable", text, hint=hint, source=at)
+        return
+    takes = kind_of(about.kind).datatypes
+    if tunable is not None and tunable.datatype not in takes:
+        what = f"{owner}.{key} is a {tunable.datatype}, and {name} is {_with_article(about.kind)}"
+        text = f"{what}: it drives to numbers" if takes == ("float",) else f"{what}: it does not set that"
+        yield error(
+            "value",
+            text,
+            hint=f"map a tunable of datatype {' or '.join(takes)}" if takes else "leave `map` out",
+            source=at,
+        )
+    elif tunable is not None and key in ("shutter", "emission") and about.kind not in _ENDS_LIGHT:
+        text = f"{owner}.{key} lets light out, and the guard of light can't end it through {_with_article(about.kind)}"
+        yield error("value", text, hint="choose a driver of the kind `shutter` or `laser`", source=at)
+    elif tunable is not None and not about.writable(entry, wired.property) and tunable.restore.kind != "none":
+        text = f"{owner}.{key} is set, and `{wired.property}` of {name} is only read"
+        hint = "`set:` in its settings says how it is set; a value that is only read is a measurable of its type"
+        yield error("value", text, hint=hint, source=at)
+    elif tunable is not None and (names := about.position_names(entry)):
+        yield from _positions(document, name, tunable, f"{owner}.{key}", names)
     elif own and units[key] and (wrong := _unit(wired, own, units[key], f"{owner}.{key}", entry.driver)):
         yield error("unit", wrong[0], hint=wrong[1], source=at)
+
+
+_ENDS_LIGHT = ("shutter", "laser", "lamp")
+"""The kinds that what lets light out may be."""
+
+
+def _with_article(kind: str) -> str:
+    return f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}"
+
+
+def _positions(
+    document: Document, name: str, tunable: Tunable, address: str, names: Mapping[str, str]
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """Yield the positions of a device that are no values of the tunable, each at its place."""
+    for code, position in names.items():
+        value = value_at(tunable, position)
+        if value is None or (tunable.choices and position not in tunable.choices):
+            known = tunable.choices or (("on", "off") if tunable.datatype == "bool" else ())
+            hint = did_you_mean(position[:40], known) or "its name is a number, in the unit of the tunable"
+            at = where(document, "devices", name, "settings", "positions", code)
+            yield error("value", f"`{position[:40]}` is no value of {address}", hint=hint, source=at)
 
 
 def _unit(wired: Wired, own: str, unit: str, address: str, driver: str) -> tuple[str, str] | None:
@@ -92,5 +144,5 @@ def _dimension(unit: str) -> str:
 
 def declared(devices: Mapping[str, DeviceEntry]) -> dict[str, tuple[DeviceEntry, Declaration]]:
     """Return the devices whose drivers declare themselves, with what these do."""
-    found = ((name, entry, declaration(entry.driver)) for name, entry in devices.items())
+    found = ((name, entry, declaration(entry.driver)[0]) for name, entry in devices.items())
     return {name: (entry, about) for name, entry, about in found if about is not None}

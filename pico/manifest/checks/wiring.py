@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
-from pico.diagnostics import Diagnostic, did_you_mean, error
+from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.checks.addresses import check_addresses
 from pico.manifest.checks.devices import check_entry, declaration, declared
 from pico.manifest.text.names import check_names
@@ -68,10 +68,10 @@ def _device(
 ) -> Iterator[Diagnostic]:  # fmt: skip
     for key, chosen, known in (("driver", entry.driver, drivers), ("emulator", entry.emulator, emulators)):
         if chosen is not None and chosen not in known:
-            hint = did_you_mean(chosen[:40], known) or "a plug-in that brings it is not installed"
-            at = where(document, "devices", name, key)
-            yield error(key, f"there is no {key} `{chosen[:40]}`", hint=hint, source=at)
-    if (about := declaration(entry.driver)) is not None:
+            yield _absent(document, name, key, chosen, known, entry.package)
+    about, wrong = declaration(entry.driver)
+    yield from (replace(one, severity="warning", source=where(document, "devices", name, "driver")) for one in wrong)
+    if about is not None:
         yield from check_entry(document, name, entry, about, setup)
     lab, owner = setup.lab, entry.of or name
     parts = [*lab.inventory, *lab.robots, *lab.cameras]
@@ -85,6 +85,20 @@ def _device(
         what = "is no component of the lab" if owner not in parts else "has no tunables"
         at = where_key(document, "devices", name, "map")
         yield error("value", f"{owner} {what}", hint="name the component by `of:`", source=at)
+
+
+def _absent(
+    document: Document, name: str, key: str, chosen: str, known: Collection[str], package: str | None
+) -> Diagnostic:  # fmt: skip
+    """Return what is wrong with a driver or emulator that is not installed: an error if others of its family are, for
+    it is misspelt then; else a warning, for the package that brings it may be absent here, and the simulator needs
+    none."""
+    at, near = where(document, "devices", name, key), did_you_mean(chosen[:40], known)
+    if chosen.partition(".")[0] in {one.partition(".")[0] for one in known}:
+        return error(key, f"there is no {key} `{chosen[:40]}`", hint=near or "a plug-in may bring it", source=at)
+    install = f"`pip install {package}`" if package else "install the package that brings it"
+    text = f"{name} can't be reached here: its {key} `{chosen[:40]}` is not installed; the simulator does not need it"
+    return warning(key, text, hint=f"{near} Or {install}" if near.startswith("did") else install, source=at)
 
 
 def _map(document: Document, name: str, entry: DeviceEntry, setup: Setup, owner: str) -> Iterator[Diagnostic]:

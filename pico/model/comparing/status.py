@@ -71,7 +71,8 @@ class StatusRow:
 @record
 class Status:
     """The three states of a bench. `head`: what the commit is called, empty without Git or before a first commit.
-    `cut_short`: that the last run was killed or an arm left standing, and what to do."""
+    `cut_short`: that the last run was killed or an arm left standing, and what to do. `lacking`: the devices that can't
+    be used, with why; all others work."""
 
     schema: str = "pico.status/v1"
     lab: str
@@ -81,6 +82,7 @@ class Status:
     rows: tuple[StatusRow, ...] = ()
     unknown: Mapping[str, Pose] = field(default_factory=dict)
     cut_short: tuple[Diagnostic, ...] = ()
+    lacking: tuple[Diagnostic, ...] = ()
 
     def __repr__(self) -> str:
         counts = {

@@ -7,9 +7,11 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 
 from pico.diagnostics import did_you_mean
-from pico.model.wiring import DeviceEntry
+from pico.model.wiring import DeviceEntry, Scalar
 
-Said = str | int | float | bool
+Said = Scalar | Mapping[str, Scalar]
+POSITIONS = "positions"
+"""A setting of this name has the names of positions, by what the device calls them."""
 UNIT = "unit"
 """A setting of this name is the unit of the properties that are declared in its default."""
 
@@ -22,8 +24,9 @@ class Setting:
     """What it does, for a person."""
     default: Said | None = None
     """What holds without it; None if the lab has to state it."""
-    kind: type = float
-    """`float` takes whole numbers, too; `int`, `str` and `bool` take only such."""
+    kind: type | tuple[type, ...] = float
+    """`float` takes whole numbers, too; `int`, `str`, `bool` and `dict` (a mapping) take only such. A tuple: any of
+    them."""
     unit: str = ""
     range: tuple[float, float] | None = None
     """The least and the greatest value, in `unit`."""
@@ -35,17 +38,22 @@ class Setting:
     def complaint(self, value: Said) -> str:
         """Return what is wrong with a value, '' if nothing is."""
         whole = isinstance(value, int) and not isinstance(value, bool)
-        if not (type(value) is self.kind or (self.kind is float and whole)):
-            return f"is {_WORDS[self.kind]}, not `{str(value)[:40]}`"
+        kinds = self.kind if isinstance(self.kind, tuple) else (self.kind,)
+        if not (type(value) in kinds or (float in kinds and whole)):
+            return f"is {' or '.join(_WORDS[one] for one in kinds)}, not `{str(value)[:40]}`"
         if self.choices and value not in self.choices:
             return f"is one of {', '.join(map(str, self.choices))}, not `{str(value)[:40]}`"
-        if self.range is not None and not self.range[0] <= float(value) <= self.range[1]:
+        if (
+            self.range is not None
+            and isinstance(value, int | float)
+            and not self.range[0] <= float(value) <= self.range[1]
+        ):
             low, high = self.range
             return f"is {low:g} to {high:g} {self.unit}".rstrip() + f", not {value}"
         return ""
 
 
-_WORDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false"}
+_WORDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false", dict: "a mapping"}
 
 
 @dataclass(frozen=True)
@@ -85,12 +93,31 @@ class Declaration:
     """Whether all devices at one link have the identity of the link, as those of a switch box have."""
     wire: Callable[[DeviceEntry], tuple[str, ...]] | None = None
     """Returns what tells one physical link from another, if that is not the `bus` part of the address as written."""
+    named: Callable[[DeviceEntry], Mapping[str, str]] | None = None
+    """Returns the properties of an entry with their units, for drivers of which the lab names them."""
+    writes: Callable[[DeviceEntry, str], bool] | None = None
+    """Returns whether a property of an entry can be set, for drivers that read some only."""
     check: Callable[[DeviceEntry], Iterator[Complaint]] | None = None
     """Yields what is wrong with an entry beyond what is declared here."""
 
+    def properties_of(self, entry: DeviceEntry) -> Mapping[str, str]:
+        """Return the properties of an entry's device, with their units."""
+        return self.properties if self.named is None else self.named(entry)
+
+    def writable(self, entry: DeviceEntry, name: str) -> bool:
+        """Return whether a property of an entry's device can be set."""
+        return self.writes is None or self.writes(entry, name)
+
+    def position_names(self, entry: DeviceEntry) -> Mapping[str, str]:
+        """Return the names of the positions of an entry, by what the device calls them; none for what has none."""
+        said = entry.settings.get(POSITIONS)
+        return {str(code): str(name) for code, name in said.items()} if isinstance(said, Mapping) else {}
+
     def unit(self, entry: DeviceEntry, name: str) -> str:
         """Return the unit of a property of an entry's device; '' if it has none."""
-        said = self.properties.get(name, "")
+        said = self.properties_of(entry).get(name, "")
+        if self.named is not None:
+            return said
         stated = entry.settings.get(UNIT)
         chosen = (self.settings or {}).get(UNIT)
         return str(stated) if chosen is not None and said == chosen.default and isinstance(stated, str) else said
@@ -121,7 +148,10 @@ class Declaration:
 
     def complaints(self, entry: DeviceEntry) -> Iterator[Complaint]:
         """Yield all that is wrong with an entry, by the key at which it stands."""
-        for where, said, known in (("address", entry.address, self.address), ("limits", entry.limits, self.properties)):
+        for where, said, known in (
+            ("address", entry.address, self.address),
+            ("limits", entry.limits, self.properties_of(entry)),
+        ):
             for key in said:
                 if key not in known:
                     hint = _known(key, known)
@@ -130,8 +160,8 @@ class Declaration:
             if key not in entry.address and key != "host":  # one without a host is on a serial port
                 yield Complaint("address", f"the address has no `{key}`", f"`{key}` is {self.address[key]}")
         for key, wired in entry.map.items():
-            if wired.property not in self.properties:
-                hint = _known(wired.property, self.properties)
+            if wired.property not in self.properties_of(entry):
+                hint = _known(wired.property, self.properties_of(entry))
                 text = f"`{entry.driver}` has no property `{wired.property[:40]}`"
                 yield Complaint(f"map.{key}.property", text, hint)
         yield from self._settings(entry)

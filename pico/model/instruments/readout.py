@@ -42,3 +42,13 @@ class Readout:
 def unknown(unit: str, code: ReasonCode, raw: str = "", why: str = "") -> Readout:
     """Return a readout without a value; `why`: in words, by default what the code means."""
     return Readout(unit=unit, unknown=code, why=why or REASONS[code], raw=raw)
+
+
+def shown(found: Readout) -> str:
+    """Return a readout in words: its value with unit and sigma, or why it is unknown."""
+    if found.value is None:
+        return f"unknown: {found.why}"
+    if isinstance(found.value, str | bool):
+        return str(found.value)
+    sigma = f" ± {found.sigma:.2g} {found.unit}".rstrip() if found.sigma is not None else ""
+    return f"{found.value:.4g} {found.unit}".rstrip() + sigma

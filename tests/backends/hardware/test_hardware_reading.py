@@ -17,9 +17,9 @@ from pico.backends.hardware.instruments import Instruments, require_whole, unwir
 from pico.backends.hardware.links import Links
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.settings import Settings
-from pico.backends.hardware.tunables import Motorized
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
+from pico.drivers.driven import Motorized
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.drivers.registry import Buses, driver
 from pico.model.instruments.conversion import conversion

@@ -18,10 +18,10 @@ from pico.backends.by_sight import BySight
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.settings import Settings
-from pico.backends.hardware.tunables import Motorized, Shut
 from pico.backends.hardware.walking import Way
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
+from pico.drivers.driven import Motorized, Shut
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model import primitive
 from pico.model.instruments.conversion import conversion

@@ -21,8 +21,8 @@ from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.setting import driven
 from pico.backends.hardware.settings import Settings
-from pico.backends.hardware.tunables import Emitting, Exposed, Lit, Motorized, Shut
 from pico.diagnostics import ExitCode, PicoError, error
+from pico.drivers.driven import Emitting, Exposed, Lit, Motorized, Shut
 from pico.drivers.protocols import SafetyState
 from pico.model.catalog import Axis as AxisOf
 from pico.model.catalog import Tunable

@@ -2,39 +2,27 @@
 
 from __future__ import annotations
 
-from typing import Protocol
-
-from pico.backends.hardware.settings import Settings
 from pico.diagnostics import PicoError, error
-from pico.drivers.protocols import Axis, Camera, Instrument, Lamp, Laser, PowerMeter, Shutter
+from pico.drivers.protocols import Axis, Camera, Lamp, Laser, PowerMeter, Shutter
 from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.kind import Memory
+from pico.model.instruments.readout import Readout
 from pico.model.observation import ObservedValue
 from pico.model.quantities import Value
 
 UNKNOWN = ObservedValue(status="unknown")
-_NO_AXIS = PicoError(error("no-axis", "it has no axis that could be homed"))
+NO_AXIS = PicoError(error("no-axis", "it has no axis that could be homed"))
 
 
-class Driven(Protocol):
-    """A tunable with a device. `moves`: something turns or slides for it."""
+class WithoutAxis:
+    """A tunable without an axis: it is not homed."""
 
-    moves: bool
-
-    @property
-    def instrument(self) -> Instrument: ...
-
-    async def read(self) -> ObservedValue:
-        """Return what it is; unknown where the device does not know. Raises PicoError where that can't be asked."""
-        ...
-
-    async def set(self, value: Value) -> Value:
-        """Bring it to a value, and return what is read back; raises PicoError."""
-        ...
+    moves = False
 
     async def home(self) -> Value:
-        """Find its zero, and return what is read there; raises PicoError."""
-        ...
+        """Raise PicoError: there is nothing to home."""
+        raise NO_AXIS
 
 
 class Motorized:
@@ -56,10 +44,20 @@ class Motorized:
         return self._conversion.to_lab(await self.instrument.home())
 
 
-class Tuned:
-    """The wavelength for which a power meter corrects its reading."""
+class Powered:
+    """The power that a meter reads [W], corrected for the wavelength of the light."""
 
-    moves = False
+    colored = True
+
+    def __init__(self, meter: PowerMeter) -> None:
+        self._meter = meter
+
+    async def read(self, wavelength: float | None = None) -> Readout:
+        return await self._meter.power(wavelength=wavelength)
+
+
+class Tuned(WithoutAxis):
+    """The wavelength for which a power meter corrects its reading."""
 
     def __init__(self, meter: PowerMeter, conversion: Conversion) -> None:
         self.instrument, self._conversion = meter, conversion
@@ -74,14 +72,9 @@ class Tuned:
             raise PicoError(error("device-reply", f"the meter does not tell its wavelength: {found.why}"))
         return self._conversion.to_lab(found.value)
 
-    async def home(self) -> Value:
-        raise _NO_AXIS
 
-
-class Shut:
+class Shut(WithoutAxis):
     """A shutter: its sensor says what it is."""
-
-    moves = False
 
     def __init__(self, shutter: Shutter) -> None:
         self.instrument = shutter
@@ -93,14 +86,9 @@ class Shut:
     async def set(self, value: Value) -> Value:
         return word(await self.instrument.open(value == "open"))
 
-    async def home(self) -> Value:
-        raise _NO_AXIS
 
-
-class Emitting:
+class Emitting(WithoutAxis):
     """A laser: what it reports of itself."""
-
-    moves = False
 
     def __init__(self, laser: Laser) -> None:
         self.instrument = laser
@@ -112,29 +100,21 @@ class Emitting:
     async def set(self, value: Value) -> Value:
         return await self.instrument.emit(value is True)
 
-    async def home(self) -> Value:
-        raise _NO_AXIS
 
-
-class Lit:
+class Lit(WithoutAxis):
     """A lamp, which tells nothing: it is what it was told last, and unknown at first."""
 
-    moves = False
-
-    def __init__(self, lamp: Lamp, settings: Settings, address: str) -> None:
-        self.instrument, self._settings, self._address = lamp, settings, address
+    def __init__(self, lamp: Lamp, memory: Memory, address: str) -> None:
+        self.instrument, self._memory, self._address = lamp, memory, address
 
     async def read(self) -> ObservedValue:
-        found = self._settings.get(self._address, "")
+        found = self._memory.get(self._address, "")
         return ObservedValue(value=found) if isinstance(found, bool) else UNKNOWN
 
     async def set(self, value: Value) -> Value:
         found = await self.instrument.shine(value is True)
-        self._settings.put(self._address, found)
+        self._memory.put(self._address, found)
         return found
-
-    async def home(self) -> Value:
-        raise _NO_AXIS
 
 
 def word(found: bool) -> str:
@@ -142,22 +122,17 @@ def word(found: bool) -> str:
     return "open" if found else "closed"
 
 
-class Exposed:
+class Exposed(WithoutAxis):
     """A setting of a camera, which is told with every picture: what was set last, the lab's initial value at first."""
 
-    moves = False
-
-    def __init__(self, camera: Camera, settings: Settings, address: str, kind: Tunable) -> None:
-        self.instrument, self._settings, self._address = camera, settings, address
+    def __init__(self, camera: Camera, memory: Memory, address: str, kind: Tunable) -> None:
+        self.instrument, self._memory, self._address = camera, memory, address
         low = kind.range[0] if kind.range else 0.0
         self._first = low if kind.initial is None else kind.initial
 
     async def read(self) -> ObservedValue:
-        return ObservedValue(value=self._settings.get(self._address, self._first))
+        return ObservedValue(value=self._memory.get(self._address, self._first))
 
     async def set(self, value: Value) -> Value:
-        self._settings.put(self._address, value)
+        self._memory.put(self._address, value)
         return value
-
-    async def home(self) -> Value:
-        raise _NO_AXIS

@@ -1,0 +1,17 @@
+"""Grippers."""
+
+from __future__ import annotations
+
+from pico.drivers.protocols import Gripper
+from pico.model.instruments.kind import InstrumentKind
+
+
+async def _reads(gripper: Gripper) -> str:
+    grip = await gripper.grip()
+    return f"{grip.width:.1f} mm open" + (", holds something" if grip.holds else "")
+
+
+KIND = InstrumentKind(
+    name="gripper", about="what opens and closes around a part", protocol=Gripper, reads=_reads, role="gripper",
+    datatypes=(),
+)  # fmt: skip
