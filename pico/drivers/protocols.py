@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
+from pico.model.instruments.fault import DeviceFault
 from pico.model.instruments.readout import Readout
 from pico.model.record import record
 
@@ -83,6 +84,24 @@ class Readable(Protocol):
 
     async def readouts(self) -> Mapping[str, Readout]:
         """Return what it reads of each of its properties now, by their names; moves nothing. Raises PicoError."""
+        ...
+
+
+@runtime_checkable
+class Faulting(Protocol):
+    """An instrument that comes to faults which it keeps until somebody clears them."""
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that it has now, in the vendor's numbers; moves nothing. Raises PicoError if the link is
+        lost."""
+        ...
+
+    async def clear(self, *, by_person: bool = False) -> None:
+        """Clear its faults, and read back that they are gone; moves nothing.
+
+        `by_person`: a person was at the table and confirmed what the faults say to check. Without it only what needs no
+        person is cleared. Raises PicoError naming what is still to be done.
+        """
         ...
 
 

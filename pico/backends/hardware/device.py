@@ -14,6 +14,7 @@ from pico.backends.device import Began, Capabilities
 from pico.backends.guard.note import STOPPED, notices
 from pico.backends.guard.note import read as read_note
 from pico.backends.guard.verdict import Trip
+from pico.backends.hardware.clearing import clear, faults_of
 from pico.backends.hardware.instruments import Instruments, unwired
 from pico.backends.hardware.lights import Lights, closes_itself, lasers_of
 from pico.backends.hardware.links import Links
@@ -28,6 +29,7 @@ from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, r
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.drivers.protocols import Arm
 from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, with_value
 from pico.model.operation import Operation, OperationResult
@@ -107,6 +109,14 @@ class HardwareDevice:
         except PicoError:  # of one that can't be read nobody knows what was tried
             return NEAR
         return NEAR if slowly(report, self.bench, basis) else None
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults of all instruments; raises PicoError for links that are lost."""
+        return await faults_of(await self.links.instruments())
+
+    async def clear(self, name: str) -> None:
+        """Clear the faults of an instrument for a person who was at the table; raises PicoError."""
+        await clear(await self.links.instruments(), name)
 
     # looking
 
