@@ -28,7 +28,7 @@ def recover(
     context: typer.Context, done: Keys = None, not_done: NotKeys = None, auto_approve: Yes = False,
     fidelity: Fidelity = None, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
-    """Clear faults; set down what hands still hold; settle what only you can know.
+    """Clear faults; set down what hands hold; settle what only you know.
 
     For after a run was stopped or killed, or a device came to a fault. Each fault is named with what to check at the
     table, and cleared once you confirm it; --yes does not answer that. Changes nothing else. `pico resume` and the next

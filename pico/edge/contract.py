@@ -135,8 +135,8 @@ class EdgeCustody(Protocol):
 
     async def clear_fault(self, device: str, by: str) -> None:
         """Clear the faults of a device, for `by`, who was at the table and confirmed it at a terminal of the bench's
-        own computer; moves nothing. No coordinator relays this. Raises PicoError if the bench is in use (exit code LOCKED),
-        and naming what is still to be done."""
+        own computer; moves nothing. No coordinator relays this. Raises PicoError if the bench is in use (exit code
+        LOCKED), and naming what is still to be done."""
         ...
 
     async def halt(self) -> None:

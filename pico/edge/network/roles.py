@@ -11,7 +11,8 @@ Role = Literal["viewer", "operator", "admin", "laser:enable", "lease:steal", "te
 
 _LOOKING = (
     "describe", "holder", "faults", "unended", "lab", "armings", "unattended", "doses", "observe", "look", "peek",
-    "array", "picture", "events", "live", "report", "film", "world", "world.placements", "world.true_cameras", "world.true_arms",
+    "array", "picture", "events", "live", "report", "film", "world", "world.placements", "world.true_cameras",
+    "world.true_arms",
 )  # fmt: skip
 _MOVING = (
     "acquire", "execute", "start", "open", "finish", "cancel", "hold", "goes_on", "leave", "resolve", "disarm",
