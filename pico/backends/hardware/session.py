@@ -22,6 +22,7 @@ from pico.backends.hardware.setting import driven, ranged
 from pico.backends.hardware.tunables import Driven
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
+from pico.backends.pushed import pushed, with_pushed
 from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.drivers.protocols import Arm
@@ -97,7 +98,7 @@ class HardwareSession:
             if self._light_ended and operation.primitive in ("measure", "auto_range"):
                 raise Failed(self._light_ended)  # it may have been measured in the dark
         except Failed as exc:
-            failure = self._ended() if self._stopped else exc
+            failure, data = self._ended() if self._stopped else exc, exc.data
         except PicoError as exc:
             failure = self._ended() if self._stopped else failed(operation, exc)
         except Exception as exc:
@@ -316,7 +317,7 @@ class HardwareSession:
 
     async def _gone(self, operation: Operation, key: str, path: MovePath, start: Pose) -> None:
         """Have an arm go along a path with what it took at `start`, or is to take there; says what became of that."""
-        name = operation.component
+        name, before = operation.component, await self._seen()
         try:
             await self._walked(operation, key, path)
         except _Back as way:
@@ -328,8 +329,9 @@ class HardwareSession:
             await self._withdraw(operation)
             if exc.diagnostic.code == "put-back":
                 raise
-            part = await self._asked(self._known.confirm, name, start)
-            raise Failed(checks.found_again(exc.diagnostic, name, part), exc.outcome) from exc
+            part = await self._asked(self._known.find, name)
+            said = Failed(checks.found_again(exc.diagnostic, name, part), exc.outcome, exc.data)
+            raise with_pushed(said, before, pushed(self._setup, before, await self._seen(), name)) from exc
 
     async def _park(self, operation: Operation, key: str) -> Mapping[str, Any]:
         robot = operation.robot or operation.component

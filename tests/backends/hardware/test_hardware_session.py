@@ -143,6 +143,9 @@ class Known(BySight):
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
         return self.seen().components[component]
 
+    def find(self, component: str) -> ObservedComponent:
+        return self.seen().components[component]
+
 
 class Axis:
     """An axis that may come to rest elsewhere."""
@@ -370,6 +373,39 @@ def test_a_part_that_is_lost_on_the_way_is_told_as_dropped(setup: Setup) -> None
     bench.grip = grip  # type: ignore[method-assign]
     result = executed(session(bench), move())
     assert result.error is not None and result.error.code == "dropped"
+
+
+def test_a_part_that_fell_is_looked_for_and_so_is_what_it_pushed(setup: Setup) -> None:
+    bench = Bench(setup)
+
+    class Fell(Known):
+        """The part fell between its places, beside another one."""
+
+        def seen(self) -> Observation:
+            seen = super().seen()
+            there = seen.components["p1"]
+            assert there.pose is not None
+            by = 3.0 if bench.legs >= 4 else 0.0
+            shoved = replace(there, pose=Pose(there.pose.x + by, there.pose.y, there.pose.yaw))
+            return replace(seen, components={**seen.components, "p1": shoved})
+
+        def confirm(self, component: str, near: Pose) -> ObservedComponent:
+            return ObservedComponent(pose=near, how="placed")  # hidden by the arm, which proves nothing
+
+        def find(self, component: str) -> ObservedComponent:
+            assert setup.lab.robots["arm1"].is_parked(bench.joints), "the arm would hide it"
+            return self.seen().components[component]
+
+    async def grip() -> Grip:
+        if bench.legs >= 4 and bench.holding:  # in the transit
+            bench.holding, bench.width, bench.at = False, 10.0, Pose(350.0, 360.0, 2.0)
+        return Grip(width=bench.width, holds=bench.holding)
+
+    bench.grip = grip  # type: ignore[method-assign]
+    result = executed(session(bench, known=Fell(bench)), move())
+    assert result.error is not None and result.after is not None
+    assert "it stands at (350, 360, 2°); it moved p1 by 3.0 mm" in result.error.summary
+    assert result.after.pose == Pose(350.0, 360.0, 2.0) and set(result.data["pushed"]) == {"p1"}
 
 
 @pytest.mark.parametrize(("leg", "name"), [(1, "approach"), (2, "descend"), (3, "lift"), (4, "transit"), (5, "lower")])
