@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.devices import EMULATED, HARDWARE
 from pico.base import clock
 from pico.bench.auditing import case_of
 from pico.bench.cut_short import cut_short
@@ -147,8 +149,22 @@ class Plans:
         head, setup = self.opened.folder.head(), self.opened.setup
         return Planner(
             setup, DeferredMotion(setup), seen, self.opened.backend_name, self.opened.fidelity,
-            head.commit if head else None,
+            head.commit if head else None, timed=self._as_measured(),
         )  # fmt: skip
+
+    def _as_measured(self) -> Callable[[Sequence[Operation]], tuple[Operation, ...]]:
+        """Return what gives operations the seconds that earlier ones took on a bench with devices; of a simulated one
+        the path says it."""
+        from pico.runs.durations import as_measured, measured_durations
+
+        opened, setup = self.opened, self.opened.setup
+        if opened.backend_name not in (EMULATED, HARDWARE) or opened.far is not None:
+            return tuple
+        try:
+            durations = measured_durations(setup, memory.records() if (memory := opened.edge.memory) else ())
+        except PicoError:  # a journal that can't be read is told by what needs it
+            return tuple
+        return partial(as_measured, setup, durations=durations)
 
     def _realigned(self, plan: Plan, seen: Observation, motion: Motion | None) -> Plan:
         """Return the plan with the goals sought at its end that are not aligned then, and with what its goal recorded
