@@ -105,6 +105,20 @@ class Faulting(Protocol):
         ...
 
 
+@runtime_checkable
+class MotionTested(Protocol):
+    """An instrument whose driver has a motion test of its own, by which a bench earns that it moves without a hand on
+    the stop each time."""
+
+    test: str
+    """What the test does, for the person who stands by: `arm1 turns its last joint by 5 deg, ...`."""
+
+    async def motion_test(self) -> Mapping[str, float]:
+        """Make a small motion out and back, be stopped in the middle of one, and read the limits back; return what was
+        measured, by name with its unit (`off_deg`). Raises PicoError for what is not as it should be."""
+        ...
+
+
 class Arm(Instrument, Protocol):
     """An arm that follows joint trajectories of our own timing."""
 

@@ -6,7 +6,7 @@ import asyncio
 import math
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeVar
 
@@ -40,6 +40,9 @@ _RETURNED = 0.5
 
 class XArm:
     """Implements `pico.drivers.protocols.Arm`."""
+
+    test = "it turns its last joint by 5 deg, out and back, and is stopped on its way"
+    """What its motion test does."""
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Link]) -> None:
         """Open nothing yet. Raises PicoError for settings that make no sense."""
@@ -123,6 +126,12 @@ class XArm:
     async def clear(self, *, by_person: bool = False) -> None:
         """Clear the fault of the control box, see `pico.drivers.protocols.Faulting`."""
         await self._line.ask("clear its fault", lambda link: self._cleared(link, by_person))
+
+    async def motion_test(self) -> Mapping[str, float]:
+        """Try its motion, its stop and its limits, see `pico.drivers.protocols.MotionTested`; raises PicoError."""
+        from pico.drivers.xarm.testing import motion_test
+
+        return await motion_test(self)
 
     async def close(self) -> None:
         """Let go of the link."""

@@ -21,7 +21,7 @@ from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.tunables import Motorized, Shut
 from pico.backends.hardware.walking import Way
 from pico.backends.last_seen import Taken
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model import primitive
 from pico.model.instruments.conversion import conversion
@@ -551,14 +551,16 @@ def test_an_arm_whose_driver_was_never_tried_makes_one_slow_motion_at_a_time(set
     executed(session(quick), move())
     one = session(bench, untried=frozenset({"arm1"}))
 
-    async def twice() -> tuple[OperationResult, OperationResult]:
+    async def twice() -> tuple[OperationResult, PicoError]:
         first = await one.execute(move(), "run/op3/1", lambda before: None)
         park = Operation(id="op4", primitive="park", component="arm1", robot="arm1", reason=ASKED)
-        return first, await one.execute(park, "run/op4/1", lambda before: None)
+        with pytest.raises(PicoError) as second:
+            await one.execute(park, "run/op4/1", lambda before: pytest.fail("it is not begun"))
+        return first, second.value
 
     first, second = asyncio.run(twice())
     assert first.outcome == "done" and bench.seconds == pytest.approx(20 * quick.seconds)
-    assert second.error is not None and second.error.code == "first-motion"
+    assert second.diagnostics[0].code == "first-motion" and second.exit_code == ExitCode.INTERRUPTED
 
 
 def test_an_axis_is_homed_first_where_nobody_knows_where_it_is_and_read_back(setup: Setup) -> None:
