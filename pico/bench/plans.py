@@ -156,11 +156,11 @@ class Plans:
     def _as_measured(self) -> Callable[[Sequence[Operation]], tuple[Operation, ...]]:
         """Return what gives operations the seconds that earlier ones took on a bench with devices; of a simulated one
         the path says it."""
-        from pico.runs.durations import as_measured, measured_durations
-
         opened, setup = self.opened, self.opened.setup
         if opened.backend_name not in (EMULATED, HARDWARE) or opened.far is not None:
             return tuple
+        from pico.runs.durations import as_measured, measured_durations
+
         try:
             durations = measured_durations(setup, memory.records() if (memory := opened.edge.memory) else ())
         except PicoError:  # a journal that can't be read is told by what needs it

@@ -131,7 +131,7 @@ class XArm:
         """Try its motion, its stop and its limits, see `pico.drivers.protocols.MotionTested`; raises PicoError."""
         from pico.drivers.xarm.testing import motion_test
 
-        return await motion_test(self)
+        return await motion_test(self.name, self)
 
     async def close(self) -> None:
         """Let go of the link."""

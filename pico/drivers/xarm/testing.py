@@ -6,15 +6,11 @@ import asyncio
 import math
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pico.diagnostics import PicoError, error
-
-if TYPE_CHECKING:
-    from pico.drivers.protocols import ArmState
-    from pico.drivers.xarm.arm import XArm
+from pico.drivers.protocols import Arm, ArmState
 
 TURN, SPEED = math.radians(5.0), math.radians(5.0)
 """By how much the last joint turns [rad], and how fast at the most [rad/s]."""
@@ -27,28 +23,28 @@ RUNS_ON = math.radians(2.0)
 LOOKS = 0.02
 
 
-async def motion_test(arm: XArm) -> Mapping[str, float]:
+async def motion_test(name: str, arm: Arm) -> Mapping[str, float]:
     """Turn the last joint out and back, and out again until a stop; return how far off it was [deg], how far it went on
     after the stop [deg] and for how long [s]. Raises PicoError."""
     start = (await arm.ready()).joints  # tells all limits, and reads them back
     there = (*start[:-1], start[-1] + (TURN if start[-1] < 0 else -TURN))
-    off = max(await _turned(arm, there), await _turned(arm, start))
-    gone, seconds = await _stopped(arm, there)
+    off = max(await _turned(name, arm, there), await _turned(name, arm, start))
+    gone, seconds = await _stopped(name, arm, there)
     await arm.ready()
-    off = max(off, await _turned(arm, start))
+    off = max(off, await _turned(name, arm, start))
     return {"off_deg": _deg(off), "stop_deg": _deg(gone), "stop_s": round(seconds, 3)}
 
 
-async def _turned(arm: XArm, goal: tuple[float, ...]) -> float:
+async def _turned(name: str, arm: Arm, goal: tuple[float, ...]) -> float:
     """Bring the arm to a posture, and return how far from it a joint comes to rest [rad]."""
     state = await arm.follow(*_path((await arm.state()).joints, goal), doing="its motion test")
     off = max(abs(a - b) for a, b in zip(state.joints, goal, strict=True))
     if off > EXACT:
-        raise PicoError(error("motion-test", f"{arm.name} stopped {_deg(off)} deg from where it was sent to"))
+        raise PicoError(error("motion-test", f"{name} stopped {_deg(off)} deg from where it was sent to"))
     return off
 
 
-async def _stopped(arm: XArm, goal: tuple[float, ...]) -> tuple[float, float]:
+async def _stopped(name: str, arm: Arm, goal: tuple[float, ...]) -> tuple[float, float]:
     """Stop the arm on its way; return how far its last joint went on [rad], and for how long [s]."""
     begun = (await arm.state()).joints
     going = asyncio.create_task(arm.follow(*_path(begun, goal), doing="its motion test"))
@@ -63,9 +59,9 @@ async def _stopped(arm: XArm, goal: tuple[float, ...]) -> tuple[float, float]:
     rest: ArmState = await arm.state()
     gone = abs(rest.joints[-1] - here[-1])
     if not isinstance(ended, PicoError) or rest.moving or gone > RUNS_ON:
-        text = f"{arm.name} went on by {_deg(gone)} deg after it was stopped"
+        text = f"{name} went on by {_deg(gone)} deg after it was stopped"
         hint = "find out why, with a hand on the hard-wired stop"
-        raise PicoError(error("motion-test", text, hint=hint, address=arm.name))
+        raise PicoError(error("motion-test", text, hint=hint, address=name))
     return gone, seconds
 
 
