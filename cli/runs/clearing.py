@@ -37,7 +37,9 @@ def clear_faults(session: Session, bench: Bench) -> ExitCode:
 def require_person(session: Session, bench: Bench, fault: DeviceFault) -> None:
     """Raise PicoError unless a person can be asked about a fault here."""
     if session.json or bench.far is not None or sys.stdin is None or not sys.stdin.isatty():
-        where = f"{bench.far.said} is at another computer" if bench.far is not None else "there is no terminal here"
+        where = "there is no terminal here"
+        if bench.far is not None:
+            where = "`pico gui` serves the bench: close it" if bench.far.local else f"{bench.far.said} is elsewhere"
         hint = f"{fault.check}; then a person calls `pico recover` at a terminal of the bench's own computer"
         detail = f"a person must confirm that, and {where}; no option and no program confirms it"
         raise PicoError(error(fault.code, str(fault), detail=detail, hint=hint, address=fault.device))
