@@ -32,6 +32,7 @@ check: $(STAMP)
 	$(BIN)/python -m pico.manifest.schema --check
 	$(BIN)/python -m pico.recipes.schema --check
 	$(BIN)/python .ci/state_files.py --check
+	$(BIN)/python .ci/fault_page.py --check
 	$(BIN)/python .ci/page.py check
 	$(BIN)/python .ci/wheel.py
 
@@ -52,6 +53,7 @@ docs: $(STAMP)
 	$(BIN)/python .ci/state_files.py
 	$(BIN)/python .ci/safety_table.py
 	$(BIN)/python .ci/instrument_kinds.py
+	$(BIN)/python .ci/fault_page.py
 
 $(STAMP): pyproject.toml constraints.txt tests/kernels/pictures.txt .ci/path.py .ci/install.py
 	@$(PYTHON) -c 'import sys; sys.exit(0 if sys.version_info >= (3, 11) else f"PICO needs Python 3.11 or newer; {sys.executable} is {sys.version.split()[0]}. Name another one: make PYTHON=python3.12")'

@@ -171,6 +171,11 @@ class Session:
         """What is called, without its arguments: `pico move`."""
         return "pico" if self.context is None else self.context.command_path
 
+    @property
+    def words(self) -> str:
+        """What is called, with its arguments but without what says on which bench it is and `-y`: `pico apply e1`."""
+        return f"pico {shlex.join(_own_words(self.context.meta.get('pico.words', ())))}" if self.context else "pico"
+
     def intend(self) -> None:
         """Keep what was called: it is approved."""
         if self.context is not None and self.intended:

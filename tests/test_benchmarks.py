@@ -21,6 +21,7 @@ SMALLEST = {
     "by_sight": "--moves 1 --seeds 1",
     "calibration": "--only odd --scenes 1",
     "carrying": "--components 30 --commits 5 --repeat 1",
+    "cleared_faults": "--cases 3",
     "commits": "--processes 2 --each 1 --kills 2 --capture 30",
     "control_plane": "--crashes 2000 --seeds 300 --only number",
     "cross_bench": "--only 3 4 --seed 11 --jobs 2",

@@ -33,6 +33,8 @@ def doctor(
 ) -> int:
     """Check git, its merge driver, the manifests and all that PICO keeps in `.pico`; show versions.
 
+    On a bench with devices it asks these for faults, too.
+
     Examples:
       pico doctor
       pico doctor --journal
@@ -46,7 +48,7 @@ def doctor(
     if journal:
         return _journal(session, yes)
     checked = check_folder(session.folder, beside=missing_files)
-    found = (*checkup(session.folder), *checked.diagnostics, *_kept(session.folder))
+    found = (*checkup(session.folder), *checked.diagnostics, *_kept(session.folder), *_faults(session))
     session.tell(found)
     session.show(view, found)
     return ExitCode.ERROR if any(d.severity == "error" for d in found) else ExitCode.DONE
@@ -61,6 +63,25 @@ def _journal(session: Session, yes: bool) -> int:
     found = salvage_journal(session.here(find_lab(session.folder)), write=yes)
     session.show(salvage, found)
     return ExitCode.CHANGES if found.damaged and found.aside is None else ExitCode.DONE
+
+
+def _faults(session: Session) -> tuple[Diagnostic, ...]:
+    """Return the faults of the devices of the bench that is meant, and why they can't be asked; those of a simulated
+    bench keep none."""
+    from pico.backends.devices import EMULATED, HARDWARE
+    from pico.bench.bench import Bench
+    from pico.manifest.load import find_lab
+    from pico.model.instruments.fault import fault_diagnostic
+    from pico.places.bench import BenchPlace
+
+    try:
+        place = session.place(find_lab(session.folder))
+        if not isinstance(place, BenchPlace) or place.name not in (EMULATED, HARDWARE):
+            return ()
+        with Bench.open(session.folder, backend=session.backend, bench=place) as bench:
+            return tuple(fault_diagnostic(fault) for fault in bench.recovery.faults())
+    except PicoError as exc:
+        return tuple(replace(one, severity="warning") for one in exc.diagnostics)
 
 
 def _reaching(root: Path, one: Diagnostic) -> Diagnostic:

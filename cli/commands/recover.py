@@ -10,6 +10,7 @@ from pico.diagnostics import ExitCode
 
 from ..arguments import Fidelity, LockTimeout, Yes
 from ..runs.approving import approve
+from ..runs.clearing import clear_faults
 from ..session import Session
 
 HEADING = "The main job"
@@ -27,10 +28,11 @@ def recover(
     context: typer.Context, done: Keys = None, not_done: NotKeys = None, auto_approve: Yes = False,
     fidelity: Fidelity = None, lock_timeout: LockTimeout = None,
 ) -> int:  # fmt: skip
-    """Set down what hands still hold; settle what only you can know.
+    """Clear faults; set down what hands hold; settle what only you know.
 
-    For after a run was stopped or killed. Changes nothing else. `pico resume` and the next `pico apply` do the same
-    before they go on.
+    For after a run was stopped or killed, or a device came to a fault. Each fault is named with what to check at the
+    table, and cleared once you confirm it; --yes does not answer that. Changes nothing else. `pico resume` and the next
+    `pico apply` set down what hands hold before they go on, but clear no fault that a person must look at.
 
     Examples:
       pico recover
@@ -38,6 +40,8 @@ def recover(
     """
     session = Session.of(context)
     bench = session.bench(fidelity, writing=True, safety="hands")
+    if code := clear_faults(session, bench):
+        return code
     for keys, was_done in ((done, True), (not_done, False)):
         for key in keys or ():
             bench.recovery.answer(key, done=was_done)

@@ -86,7 +86,8 @@ def ran(
 
     came = watched(run, show)
     after = _after(plan) if after is None else after
-    session.show(report_view, run.report, after=after, undoing=plan.target.cause in ("undo", "redo"))
+    undoing = plan.target.cause in ("undo", "redo")
+    session.show(report_view, run.report, after=after, undoing=undoing, again=session.words)
     session.tell(run.report.diagnostics)
     light_back(session, bench, plan, run.report)
     if record and recording and recording.snapshots and set(came) <= {signal.SIGINT}:  # else nobody waits for it

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
+from pico.diagnostics import ExitCode
 from pico.model.record import as_json
 from pico.model.trace.expectation import Expected
 from pico.model.trace.report import BEYOND_TRIM, GoalEnd, RunReport
@@ -17,9 +18,9 @@ from .unread import in_known, unread
 _CAPTURE = "The manifest is unchanged; `pico capture` updates it."
 
 
-def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
+def text(report: RunReport, *, after: str = "", undoing: bool = False, again: str = "") -> str:
     """Return the tally, and whether the bench now equals what was wanted; `after`: what to do once it is done;
-    `undoing`: the same command again would undo this one."""
+    `undoing`: the same command again would undo this one; `again`: that command."""
     total = report.done + report.failed + report.unknown + report.skipped
     parts = [f"{report.done} of {count(total, 'operation')} done"]
     back = sum(d.code == "put-back" for d in report.diagnostics)
@@ -34,9 +35,11 @@ def text(report: RunReport, *, after: str = "", undoing: bool = False) -> str:
     }
     took = f"{seconds(report.seconds)} {report.clock}, {seconds(report.wall)} here"
     said = ", ".join(parts) if total > report.done else f"{count(total, 'operation')}"
-    lines = [f"{head[report.outcome]}: {said} · {took}{off(report)}"]
+    paused = report.put_off and not (report.failed or report.unknown)
+    ended = paint("yellow", "Stopped after one motion") if paused else head[report.outcome]
+    lines = [f"{ended}: {said} · {took}{off(report)}"]
     lines += [*goals(report.goals or (), report.aligning), *expectations(report.expectations)]
-    ending = [*_bench(report, undoing), *([after] if after and report.outcome == "done" else [])]
+    ending = [*_bench(report, undoing, again), *([after] if after and report.exit_code == ExitCode.DONE else [])]
     return "\n".join(lines + [part for line in ending for part in wrap(line, "")])
 
 
@@ -77,8 +80,8 @@ def expectations(found: Sequence[Expected]) -> list[str]:
     return [*lines, f"{holding} of {count(len(found), 'expectation')} {verb}{rest}."]
 
 
-def _bench(report: RunReport, undoing: bool) -> list[str]:
-    if report.reached and (report.whole or report.scope or report.outcome == "done"):
+def _bench(report: RunReport, undoing: bool, again: str) -> list[str]:
+    if not report.put_off and report.reached and (report.whole or report.scope or report.outcome == "done"):
         if report.whole:
             unknown = report.unread or ()
             return [
@@ -99,11 +102,15 @@ def _bench(report: RunReport, undoing: bool) -> list[str]:
     if away:
         lines.append(f"Not seen where it should stand: {listed(away)}.")
     lines += [_in_hand(robot, part) for robot, part in report.held.items()]
-    return [*lines, *_goes_on(report, bool(away), undoing)]
+    return [*lines, *_goes_on(report, bool(away), undoing, again)]
 
 
-def _goes_on(report: RunReport, away: bool, undoing: bool) -> list[str]:
+def _goes_on(report: RunReport, away: bool, undoing: bool, again: str) -> list[str]:
     """Return how to go on after a run that left something to do."""
+    if report.put_off:
+        command = "pico resume" if undoing else again or "pico apply"
+        lets = "`pico commission --only motion` lets plans run whole"
+        return [f"{count(report.put_off, 'operation')} left: continue with `{command}`. {lets}."]
     if report.outcome == "interrupted":
         return ["Continue with `pico resume`; go back with `pico undo`."]
     if undoing:

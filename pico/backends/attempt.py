@@ -19,10 +19,13 @@ Progress = Generator[float, None, Mapping[str, Any]]
 
 
 class Failed(Exception):
-    """A motion that did not do what it should; `outcome` is `unknown` where nobody can tell what it did."""
+    """A motion that did not do what it should; `outcome` is `unknown` if nobody can tell what it did. `data`: of the
+    result, such as what else it moved."""
 
-    def __init__(self, diagnostic: Diagnostic, outcome: Outcome = "failed") -> None:
-        self.diagnostic, self.outcome = diagnostic, outcome
+    def __init__(
+        self, diagnostic: Diagnostic, outcome: Outcome = "failed", data: Mapping[str, Any] | None = None
+    ) -> None:
+        self.diagnostic, self.outcome, self.data = diagnostic, outcome, data or {}
         super().__init__(diagnostic.summary)
 
 
@@ -59,7 +62,7 @@ def attempt(
     try:
         data = yield from table.act(operation, key)
     except Failed as exc:
-        failure = exc
+        failure, data = exc, exc.data
     except Exception as exc:
         failure = plug_in_failed(exc)
         if failure is None:

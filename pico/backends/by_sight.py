@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from pico.twin.sight import InHand
 
 
+SHOWN = ("stereo", "known height", "in hand")
+"""How a part is known that a camera shows."""
+
+
 class BySight:
     """What frames, joints and pads tell. `look` looks at the whole table; between two of its looks only what was moved
     is looked at, in the regions of the pictures (`take`) where it should be.
@@ -90,8 +94,8 @@ class BySight:
             remember(self._place, {**recall(self._place), component: there})
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
-        """Look from above at a part that was put down near a pose, or lost, and return it; where the arm hides it, the
-        eye in the hand has seen it when it let go of it."""
+        """Look from above at a part that was put down near a pose, and return it; where the arm hides it, the eye in
+        the hand has seen it when it let go of it."""
         seen = self.seen()
         if any(robot.holding == component for robot in seen.robots.values()):
             return seen.components[component]
@@ -103,6 +107,17 @@ class BySight:
         else:
             self._parts[component] = found
         return self.seen().components[component]
+
+    def find(self, component: str) -> ObservedComponent:
+        """Look at the whole table for a part that was lost, and for those that it may have pushed; return it, `missing`
+        if no camera shows it: a place that is hidden proves nothing of it."""
+        if any(robot.holding == component for robot in self.seen().robots.values()):
+            return self.seen().components[component]
+        self._look_at_all()
+        found = self.seen().components[component]
+        if found.presence == "seen" and found.how not in SHOWN:
+            self._parts[component] = found = ObservedComponent(presence="missing", values=found.values)
+        return found
 
     def _once(self) -> Look:
         if self._looked is None:

@@ -193,7 +193,7 @@ def found_again(said: Diagnostic, name: str, part: ObservedComponent, hand: str 
     by_hand = f"put it upright by hand{hand}, then plan again"
     pose = part.pose
     if pose is None:
-        return replace(said, summary=f"{said.summary}; it is not on the table", hint=by_hand)
+        return replace(said, summary=f"{said.summary}; no camera shows where it is now", hint=by_hand)
     if part.presence == "toppled":
         where = f"it lies on its side at x = {pose.x:.0f}, y = {pose.y:.0f}"
         return replace(said, summary=f"{said.summary}; {where}", hint=by_hand)

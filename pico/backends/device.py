@@ -10,6 +10,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 from pico.model.commissioning import Basis
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.operation import Operation, OperationResult
@@ -55,6 +56,20 @@ class Commissioned(Protocol):
 
     async def basis(self) -> Basis:
         """Return what a report of it would be of now; raises PicoError for what does not answer."""
+        ...
+
+
+@runtime_checkable
+class Clearable(Protocol):
+    """A device whose instruments keep faults until a person clears them."""
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults of all instruments; moves nothing. Raises PicoError for links that are lost."""
+        ...
+
+    async def clear(self, name: str) -> None:
+        """Clear the faults of an instrument for a person who was at the table; moves nothing. Raises PicoError naming
+        what is still to be done."""
         ...
 
 

@@ -42,17 +42,18 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 
 def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     """Return that somebody moves the bench now; else what `cut_short` does, or that the last run was interrupted, and
-    which arms stand where they were stopped with an empty hand."""
+    which arms stand where they were stopped with an empty hand, are lost or have a fault."""
     from pico.backends.guard.note import CODE as GUARD
     from pico.edge.guard.table_lock import CODE as TABLE_LOCK
+    from pico.model.instruments.fault import CODES as FAULTS
     from pico.model.observation import LOST, left_standing
 
     found = goes_on(opened)
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
     doses = opened.wait(opened.edge.doses())
-    lost = (problem for problem in seen.problems if problem.code in (LOST, GUARD, TABLE_LOCK))
+    ill = (problem for problem in seen.problems if problem.code in (LOST, GUARD, TABLE_LOCK, *FAULTS))
     early = (one for one in told(opened.place) if one not in cut)
-    return (*unattended(opened), *lost, *early, *cut, *(note for one in doses for note in _dose(one)))
+    return (*unattended(opened), *ill, *early, *cut, *(note for one in doses for note in _dose(one)))
 
 
 def _dose(one: Dose) -> Iterator[Diagnostic]:

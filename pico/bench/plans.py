@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.devices import EMULATED, HARDWARE
 from pico.base import clock
 from pico.bench.auditing import case_of
 from pico.bench.cut_short import cut_short
@@ -15,6 +17,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, erro
 from pico.kernels.pipeline import source_of
 from pico.manifest.file_names import EXCLUDED
 from pico.model.address import called_now, read_addresses, renamed_state, renaming_of
+from pico.model.commissioning import ONE_MOTION
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import Change, diff_observed
 from pico.model.observation import Observation, ObservedComponent, ObservedValue, live_state
@@ -147,8 +150,22 @@ class Plans:
         head, setup = self.opened.folder.head(), self.opened.setup
         return Planner(
             setup, DeferredMotion(setup), seen, self.opened.backend_name, self.opened.fidelity,
-            head.commit if head else None,
+            head.commit if head else None, timed=self._as_measured(),
         )  # fmt: skip
+
+    def _as_measured(self) -> Callable[[Sequence[Operation]], tuple[Operation, ...]]:
+        """Return what gives operations the seconds that earlier ones took on a bench with devices; of a simulated one
+        the path says it."""
+        opened, setup = self.opened, self.opened.setup
+        if opened.backend_name not in (EMULATED, HARDWARE) or opened.far is not None:
+            return tuple
+        from pico.runs.durations import as_measured, measured_durations
+
+        try:
+            durations = measured_durations(setup, memory.records() if (memory := opened.edge.memory) else ())
+        except PicoError:  # a journal that can't be read is told by what needs it
+            return tuple
+        return partial(as_measured, setup, durations=durations)
 
     def _realigned(self, plan: Plan, seen: Observation, motion: Motion | None) -> Plan:
         """Return the plan with the goals sought at its end that are not aligned then, and with what its goal recorded
@@ -186,6 +203,8 @@ class Plans:
     def judged(self, plan: Plan, seen: Observation) -> Plan:
         """Return the plan with what its judges say of it, see `pico.policy.judging`. Skipped for steps of an open run;
         the edge judges those."""
+        if put_off := tuple(_one_at_a_time(plan, seen)):
+            plan = replace(plan, diagnostics=(*plan.diagnostics, *put_off)).sealed()
         if (far := self.opened.far) is not None and not far.local:
             plan = replace(plan, bench=far.name).sealed()
         if self.opened.recording is not None and (plan.asked or plan.target.title):
@@ -464,6 +483,19 @@ def _strangers(seen: Observation) -> Iterator[Diagnostic]:
         text = f"{name} stands at {thing.pose}: not in the inventory, so it is an obstacle and never moved"
         hint = "take it away, or take it into the inventory: `pico import`"
         yield Diagnostic("note", "stranger", text, hint=hint, address=name)
+
+
+def _one_at_a_time(plan: Plan, seen: Observation) -> Iterator[Diagnostic]:
+    """Yield, for each arm that makes one motion a command, which of a plan this command does and what is left."""
+    for robot in sorted({problem.address for problem in seen.problems if problem.code == ONE_MOTION}):
+        own = [op for op in plan.operations if op.robot == robot]
+        if len(own) < 2:
+            continue
+        first, *rest = own
+        left = ", ".join(f"{op.primitive} {op.component}" for op in rest)
+        text = f"{robot} makes one motion a command: now {first.primitive} {first.component}; then {left}"
+        hint = f"call it {len(rest) + 1} times, or let plans run whole with `pico commission --only motion`"
+        yield Diagnostic("note", "one-motion", text, hint=hint, address=robot)
 
 
 def _require_sense(found: list[Diagnostic]) -> None:

@@ -26,6 +26,7 @@ from pico.runs.left_set import left_set
 
 if TYPE_CHECKING:
     from pico.edge.network.remotes import Place
+    from pico.model.instruments.fault import DeviceFault
     from pico.model.setup import Setup
     from pico.runs.journal import RunRecord
     from pico.runs.memory import Memory
@@ -191,6 +192,28 @@ class Recovery:
             self.opened.wait(edge.release(self.opened.wait(edge.acquire("pico apply", self.opened.lock_timeout))))
         return unattended(self.opened) if was_not_left else ()
 
+    def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that devices of the bench keep until they are cleared. Raises PicoError for links that are
+        lost."""
+        try:
+            return self.opened.wait(self.opened.edge.faults())
+        except PicoError as exc:
+            if self.opened.far is not None and exc.diagnostics[0].code == "link":  # an older edge or coordinator
+                return ()
+            raise
+
+    def clear_fault(self, fault: DeviceFault) -> None:
+        """Clear a fault, for a person who was at the table and confirmed that at a terminal; moves nothing.
+
+        Raises PicoError for a bench of a coordinator, if the bench is in use (exit code LOCKED), and naming what is
+        still to be done.
+        """
+        from pico.edge.lease import user
+
+        if self.opened.far is not None:
+            raise PicoError(_at_table(fault))
+        self.opened.wait(self.opened.edge.clear_fault(fault.device, user()))
+
     def open_questions(self) -> list[Diagnostic]:
         """Return an error for each operation that only a person can tell the end of."""
         from pico.edge import recovery
@@ -246,6 +269,12 @@ class Recovery:
             f"the last run of this lab was on the bench `{other}`, and this command acts on `{self.opened.place.title}`"
         )
         return (warning("other-bench", text, hint=f"add `--bench {other}` if that one is meant"),)
+
+
+def _at_table(fault: DeviceFault) -> Diagnostic:
+    """Return that a fault is cleared at the table only."""
+    hint = f"{fault.check}; then a person calls `pico recover` at a terminal of the bench's own computer"
+    return error(fault.code, f"{fault}; it is not cleared over a network", hint=hint, address=fault.device)
 
 
 def _steered(component: str, robot: str | None) -> Diagnostic:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import itertools
 import time
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.bench.by_light import unaligned, unfound
 from pico.bench.cut_short import told_first
@@ -78,7 +78,7 @@ class Watch:
         ignored = [c for c in changes if rules & {c.component, f"{c.component}.{c.tunable}"}]
         kept = [c for c in changes if c not in ignored]
         records = self._records() if any(not c.tolerated for c in kept) else ()
-        found = [drift(setup, seen, change, records) for change in kept]
+        found = [drift(setup, seen, change, records, self._end_of) for change in kept]
         beyond = tuple(d for d in found if not d.change.tolerated)
         return Drifted(
             head=self.opened.history.head_name(), observed_at=seen.observed_at, beyond=beyond,
@@ -128,6 +128,13 @@ class Watch:
             return memory.records() if (memory := self.opened.edge.memory) else ()
         except PicoError:
             return ()
+
+    def _end_of(self, run: str) -> Mapping[str, Any] | None:
+        """Return how the bench was observed at the end of a run; None if nobody knows."""
+        try:
+            return memory.about(run)[1] if (memory := self.opened.edge.memory) else None
+        except PicoError:
+            return None
 
     def _held(self, seen: Observation, beyond: Sequence[Drift]) -> str:
         """Return why nothing may be brought back now."""

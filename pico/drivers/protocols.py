@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, Protocol, runtime_checkable
 
+from pico.model.instruments.fault import DeviceFault
 from pico.model.instruments.readout import Readout
 from pico.model.record import record
 
@@ -83,6 +84,38 @@ class Readable(Protocol):
 
     async def readouts(self) -> Mapping[str, Readout]:
         """Return what it reads of each of its properties now, by their names; moves nothing. Raises PicoError."""
+        ...
+
+
+@runtime_checkable
+class Faulting(Protocol):
+    """An instrument that comes to faults which it keeps until somebody clears them."""
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that it has now, in the vendor's numbers; moves nothing. Raises PicoError if the link is
+        lost."""
+        ...
+
+    async def clear(self, *, by_person: bool = False) -> None:
+        """Clear its faults, and read back that they are gone; moves nothing.
+
+        `by_person`: a person was at the table and confirmed what the faults say to check. Without it only what needs no
+        person is cleared. Raises PicoError naming what is still to be done.
+        """
+        ...
+
+
+@runtime_checkable
+class MotionTested(Protocol):
+    """An instrument whose driver has a motion test of its own, by which a bench earns that it moves without a hand on
+    the stop each time."""
+
+    test: str
+    """What the test does, for the person who stands by: `arm1 turns its last joint by 5 deg, ...`."""
+
+    async def motion_test(self) -> Mapping[str, float]:
+        """Make a small motion out and back, be stopped in the middle of one, and read the limits back; return what was
+        measured, by name with its unit (`off_deg`). Raises PicoError for what is not as it should be."""
         ...
 
 

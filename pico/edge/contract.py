@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Protocol
 from pico.backends.device import Capabilities
 from pico.backends.world import World
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -50,6 +51,11 @@ class EdgeSight(Protocol):
         """Acquire a measurable as the bench is, without lease, opening nothing: nothing of it is assured, and it enters
         no trace, expectation or goal. Raises PicoError where it can't be.
         """
+        ...
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that devices of the bench keep until they are cleared; empty for a simulated one. Raises
+        PicoError for links that are lost."""
         ...
 
 
@@ -125,6 +131,12 @@ class EdgeCustody(Protocol):
         `key` is `run id/operation id/attempt`. A known key returns its recorded result and moves nothing; the same
         key with other content raises PicoError. A failure is a result, not an exception.
         """
+        ...
+
+    async def clear_fault(self, device: str, by: str) -> None:
+        """Clear the faults of a device, for `by`, who was at the table and confirmed it at a terminal of the bench's
+        own computer; moves nothing. No coordinator relays this. Raises PicoError if the bench is in use (exit code
+        LOCKED), and naming what is still to be done."""
         ...
 
     async def halt(self) -> None:

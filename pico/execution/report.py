@@ -59,6 +59,7 @@ def run_report(
         aligning=_aligning(plan, events),
         read=tuple(_read(plan, events)) or None,
         off=_off(events),
+        put_off=sum(e.kind == "operation_skipped" and bool(e.data.get("one_motion")) for e in events) or None,
         diagnostics=(
             *told_by(events),
             *_left_set(setup, plan, events, seen),

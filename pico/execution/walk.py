@@ -9,6 +9,7 @@ from typing import Any
 
 from pico.diagnostics import Diagnostic, ExitCode, PicoError
 from pico.execution.executor import Dispatch, Executor
+from pico.model.commissioning import ONE_MOTION
 from pico.model.operation import Operation, OperationResult
 from pico.model.plan import Plan
 from pico.model.record import as_json
@@ -36,6 +37,7 @@ class Walk:
         self._executor = Executor(plan.operations, run, stop_on_error)
         self._begun = self._now = now
         self._seq = 0
+        self._one_motion = False  # an arm has made the one motion that it makes a command
 
     def interrupt(self) -> None:
         """Start nothing more but to set back; what is under way goes on to its safe end."""
@@ -85,6 +87,7 @@ class Walk:
             result = task.result()
         except PicoError as exc:
             if exc.exit_code == ExitCode.INTERRUPTED:  # the bench was halted before this began
+                self._one_motion = self._one_motion or exc.diagnostics[0].code == ONE_MOTION
                 self._executor.refused(dispatch)
                 return None
             self._executor.give_up()  # a journal or a lease that is gone: nothing more can be done in order
@@ -110,7 +113,8 @@ class Walk:
         graph = self._executor.graph
         left, counts = graph.waiting(), tally(graph.status.values())
         for op in left:
-            self._emit("operation_skipped", op, {"stopped" if self._executor.broken else "interrupted": True})
+            why = "one_motion" if self._one_motion else "stopped" if self._executor.broken else "interrupted"
+            self._emit("operation_skipped", op, {why: True})
         missed = counts["failed"] + counts["unknown"]
         stopped = self._executor.interrupted and (left or missed)
         outcome: RunOutcome = "interrupted" if stopped else "failed" if missed else "done"

@@ -11,16 +11,17 @@ from pico.model.record import digest, record
 from pico.model.setup import Setup
 
 Step = Literal[
-    "devices", "identities", "calibration", "reach", "first_move", "stop_distance", "safety_inputs", "pick_and_place",
-    "drift",
+    "devices", "identities", "calibration", "reach", "motion", "first_move", "stop_distance", "safety_inputs",
+    "pick_and_place", "drift",
 ]  # fmt: skip
 STEPS: tuple[Step, ...] = (
-    "devices", "identities", "calibration", "reach", "first_move", "stop_distance", "safety_inputs", "pick_and_place",
-    "drift",
+    "devices", "identities", "calibration", "reach", "motion", "first_move", "stop_distance", "safety_inputs",
+    "pick_and_place", "drift",
 )  # fmt: skip
 BEFORE: Mapping[Step, tuple[Step, ...]] = {
     "identities": ("devices",),
     "reach": ("devices",),
+    "motion": ("devices", "identities"),
     "first_move": ("devices", "reach"),
     "stop_distance": ("first_move",),
     "safety_inputs": ("devices",),
@@ -28,6 +29,8 @@ BEFORE: Mapping[Step, tuple[Step, ...]] = {
     "drift": ("calibration",),
 }
 """Steps that must have passed before another one."""
+ONE_MOTION = "first-motion"
+"""The code of an arm that makes one motion a command."""
 CODE = "commission"
 """Of what is told of reports."""
 FORMAT = Format("pico.commissioning")
@@ -102,6 +105,16 @@ def slowly(report: Commissioning | None, bench: str, basis: Basis) -> bool:
     if report is None or report.bench != bench:
         return bench == "hardware"
     return bool(changed(report, basis)) or not all(report.passed(step) for step in _FIRST)
+
+
+def motion_tried(report: Commissioning | None, device: str, identity: Mapping[str, str]) -> bool:
+    """Return whether the motion test of an arm's driver passed on the device that answers: the serial number and the
+    firmware are those of the report, and there is a serial number."""
+    if report is None or report.bench != "hardware" or "motion" not in report.steps:
+        return False
+    tried = report.steps["motion"].data.get("devices", {}).get(device, {})
+    same = all(tried.get(key) == identity.get(key) for key in ("serial", "firmware"))
+    return bool(identity.get("serial")) and tried.get("passed") is True and same
 
 
 def _changed(was: Basis, now: Basis) -> Iterator[str]:

@@ -80,6 +80,8 @@ class Operation:
     reason: Reason
     start: float = 0.0
     seconds: float = 0.0
+    nominal: float | None = None
+    """What paths and speeds alone say [s], if `seconds` says what earlier operations took on the bench."""
 
     @property
     def kind(self) -> Primitive:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from pico.model.observation import Observation, live_state
+from pico.model.operation import Operation
 from pico.model.plan import Base, LabRef, Plan, Staging
 from pico.model.setup import Setup
 from pico.motion.types import Motion
@@ -49,6 +51,8 @@ class Planner:
     backend: str = "sim"
     fidelity: str = "kinematic"
     commit: str | None = None
+    timed: Callable[[Sequence[Operation]], tuple[Operation, ...]] = tuple
+    """Gives operations the seconds that they take on this bench."""
 
     def plan(self, goal: PlanGoal) -> Plan:
         """Return the plan that leads to a goal, in an order that never collides.
@@ -56,7 +60,7 @@ class Planner:
         Raises nothing for an impossible state: the plan is then `errored`, holds no operation, and its diagnostics say
         what is in the way. Raises PicoError for a target that the lab does not have.
         """
-        draft = Draft(self.setup, self.motion, self.seen, goal)
+        draft = Draft(self.setup, self.motion, self.seen, goal, timed=self.timed)
         if goal.operations is None:
             return self._sealed(made(draft, TO_A_STATE))
         asked = replace(draft, operations=goal.operations, changes=goal.changes, diagnostics=goal.notes)

@@ -74,7 +74,7 @@ def _one(name: str, attempt: int, events: Mapping[str, TraceEvent]) -> Operation
         reason=str(reason.get("kind", "")) if isinstance(reason, Mapping) else "",
         start=started.t if started else None,
         seconds=_number(end.data.get("seconds")) if end and started else None,
-        planned=_number(meant.get("seconds")),
+        planned=_number(meant.get("nominal", meant.get("seconds"))),
         outcome=str(settled.data.get("outcome", outcome)) if settled else outcome,
         error=end.data.get("error") if end and isinstance(end.data.get("error"), Mapping) else None,
         data=_mapping(end.data.get("data")) if end else {},

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from commanding import Answer, Pico
+from commanding import Answer, Pico, Typed
 
 from pico.backends.emulated.bench import PACE
 from pico.backends.hardware import links
@@ -86,12 +86,20 @@ def world(root: Path) -> Any:
     return found
 
 
-def test_a_collision_on_the_way_is_told_and_the_part_is_set_down_by_what_comes_next(wired: Path, pico: Pico) -> None:
+def test_a_collision_on_the_way_is_cleared_by_a_person_and_the_part_is_set_down(
+    wired: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
     with once(lambda: holds() and arm().box.state == 1, lambda: arm().fault(31)):
         answer = applied(pico, "C2")
     assert answer.code == 1
     assert "move of p1, failed" in answer.err and "C31" in answer.err, answer.err
     assert world(wired)["robots"]["arm1"]["holding"] == "p1"
+    refused = applied(pico, "C2")
+    assert refused.code == 1 and "recover` clears it" in refused.err, refused.err
+    monkeypatch.setattr("sys.stdin", Typed("y\ny\n"))
+    cleared = pico(*EMULATED, "recover")
+    assert cleared.code == 0 and "Cleared C31" in cleared.out, cleared.out + cleared.err
+    assert world(wired)["robots"]["arm1"].get("holding") is None
     again = applied(pico, "C2")
     assert again.code == 0, again.out + again.err
     assert Pose(**world(wired)["components"]["p1"]["pose"]).distance(Pose(290, 420, 0)) < 0.1

@@ -482,3 +482,10 @@ def test_a_bench_for_tests_is_an_edge_too(tmp_path: Path) -> None:
     setup, state = shel("gantry")
     edge: Edge = sim(setup, tmp_path)
     assert asyncio.run(plan_to(sim(setup, tmp_path), state)).operations and asyncio.run(edge.observe()).components
+
+
+def test_faults_are_asked_of_every_edge_and_none_is_cleared_where_there_is_none(bench: Bench) -> None:
+    assert bench.recovery.faults() == ()
+    with pytest.raises(PicoError) as refused:
+        bench.wait(bench.edge.clear_fault("arm1", "Ada"))
+    assert refused.value.diagnostics[0].code in ("unknown-device", "link")

@@ -21,8 +21,10 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
 from pico.edge.link import wire
+from pico.edge.link.answering import Taken
 from pico.edge.network import messages
 from pico.edge.network.roles import ROLES
+from pico.edge.network.uplink import Uplink
 from pico.history.examples.example import make_example
 from pico.server.routes import admitting
 from pico.server.store.edges import Edges
@@ -66,11 +68,32 @@ def test_no_call_over_a_socket_is_made_without_its_role(bench: tuple[Served, Con
     before, stood = dump(coordinator), standing(edge)
     for role, token in who.items():
         with opened(coordinator, token) as socket:
-            for number, call in enumerate(call for call in wire.CALLS if ROLES[call] == role):
+            for number, call in enumerate(call for call, needed in ROLES.items() if needed == role):
                 socket.send(json.dumps({"id": number, "call": call, "with": []}))
                 answer = json.loads(socket.recv(timeout=30))
                 assert (answer["id"], answer["exit"], answer["error"][0]["code"]) == (number, 7, "forbidden"), call
     assert (dump(coordinator), standing(edge)) == (before, stood)
+
+
+def test_what_a_person_at_the_table_confirms_is_relayed_for_nobody(bench: tuple[Served, Connected]) -> None:
+    coordinator, _ = bench
+    assert not ROLES.keys() & wire.AT_TABLE and "clear_fault" in wire.AT_TABLE
+    with opened(coordinator, coordinator.person("chief", "admin@*")) as socket:
+        socket.send(json.dumps({"id": 1, "call": "clear_fault", "with": ["arm1", "chief"]}))
+        answer = json.loads(socket.recv(timeout=30))
+    assert answer["error"][0]["code"] == "link" and "no call that an edge knows" in answer["error"][0]["summary"]
+    token = coordinator.person("boss", "admin@*")
+    status = coordinator.ask("POST", f"/api/benches/{BENCH}/calls/clear_fault", token, {"with": ["arm1", "boss"]})[0]
+    assert status in (404, 405)
+
+
+def test_an_edge_takes_nothing_that_a_person_at_the_table_confirms_from_a_coordinator() -> None:
+    async def answered() -> list[Any]:
+        said = {"call": "clear_fault", "with": ["arm1", "chief"]}
+        return [answer async for answer in object.__new__(Uplink)._answers(said, Taken())]
+
+    (answer,) = asyncio.run(answered())
+    assert answer["error"][0]["code"] == "at-table" and "terminal of the bench's own computer" in str(answer)
 
 
 def test_a_socket_ends_with_its_token_and_gives_back_what_it_held(bench: tuple[Served, Connected]) -> None:

@@ -35,16 +35,21 @@ class OfArm:
         return self._world.now()
 
     def read(self, what: str) -> Any:
-        """`joints` and `width` now; `pace`; `fingers` and `moved`: what the emulator calls, see `XArmEmulator`."""
+        """`joints` and `width` now; `faults` that it keeps; `pace`; `fingers` and `moved`: what the emulator calls, see
+        `XArmEmulator`."""
         if what == "joints":
             return self._world.motors(self._robot)
         if what == "width":
             return self._world.width(self._robot)
+        if what == "faults":
+            return self._world.recalled(self._robot, what)
         given = {"pace": self._world.pace, "fingers": self._fingers, "moved": self._moved}
         return given.get(what, self._own.get(what))
 
     def write(self, what: str, value: Any) -> None:
-        """Keep what the emulator says of itself."""
+        """Keep what the emulator says of itself; `faults` as a control box with power does, over a loss of its link."""
+        if what == "faults":
+            self._world.remember(self._robot, what, value)
         self._own[what] = value
 
     def _fingers(self, joints: Joints, wanted: float, now: float) -> float:

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import asyncio
 import time
-from collections.abc import Callable, Coroutine, Mapping
+from collections.abc import Callable, Collection, Coroutine, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began, Capabilities
+from pico.backends.devices import HARDWARE
 from pico.backends.guard.note import STOPPED, notices
 from pico.backends.guard.note import read as read_note
 from pico.backends.guard.verdict import Trip
+from pico.backends.hardware.clearing import clear, faults_of
 from pico.backends.hardware.instruments import Instruments, unwired
 from pico.backends.hardware.lights import Lights, closes_itself, lasers_of
 from pico.backends.hardware.links import Links
@@ -21,13 +23,14 @@ from pico.backends.hardware.measuring import Readers
 from pico.backends.hardware.pictures import alike, grayed
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.report import read
-from pico.backends.hardware.session import HardwareSession
+from pico.backends.hardware.session import HardwareSession, one_motion
 from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.showing import Shown
 from pico.backends.last_seen import LastSeen, Taken, noted, placed_at, recall, recall_hands, remember
-from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.protocols import Arm
-from pico.model.commissioning import CODE, NEAR, Basis, basis_of, slowly
+from pico.model.commissioning import CODE, NEAR, Basis, basis_of, motion_tried, slowly
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation, with_value
 from pico.model.operation import Operation, OperationResult
@@ -107,6 +110,29 @@ class HardwareDevice:
         except PicoError:  # of one that can't be read nobody knows what was tried
             return NEAR
         return NEAR if slowly(report, self.bench, basis) else None
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults of all instruments; raises PicoError for links that are lost."""
+        return await faults_of(await self.links.instruments())
+
+    async def clear(self, name: str) -> None:
+        """Clear the faults of an instrument for a person who was at the table; raises PicoError."""
+        await clear(await self.links.instruments(), name)
+
+    async def untried(self) -> frozenset[str]:
+        """Return the robots of a real bench whose driver's motion test did not pass on the device that answers now, by
+        its serial number and firmware. What a driver says of its own maturity does not count."""
+        if self.bench != HARDWARE:
+            return frozenset()
+        who = (await self.links.instruments()).who
+        try:
+            report = read(self.place.root, self.bench)
+        except PicoError:  # of one that can't be read nobody knows what was tried
+            report = None
+        return frozenset(
+            robot for robot, device in self.links.arm_devices().items()
+            if not motion_tried(report, device, as_json(who[device]))
+        )  # fmt: skip
 
     # looking
 
@@ -202,7 +228,7 @@ class HardwareDevice:
                 break
         return frame
 
-    def _told(self, bench: Instruments, most: float | None) -> list[Diagnostic]:
+    def _told(self, bench: Instruments, most: float | None, untried: Collection[str]) -> list[Diagnostic]:
         """What must be known of the instruments before anything moves."""
         found = []
         if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
@@ -213,17 +239,13 @@ class HardwareDevice:
         if most is not None:
             text = f"nobody has tried yet how this bench stops: tools move at {most:g} mm/s at most"
             found.append(Diagnostic("note", CODE, text, hint="`pico commission` walks through it"))
-        for robot in sorted(self.links.untried()):
-            text = f"the driver of {robot} was never tried on a device: it makes one motion a command, at 50 mm/s"
-            hint = "keep a hand on the stop, and look after each motion"
-            found.append(warning("first-motion", text, hint=hint, address=robot))
-        return found
+        return found + [replace(one_motion(robot), severity="warning") for robot in sorted(untried)]
 
     async def _felt(self, bench: Instruments, taken: Mapping[str, Taken]) -> Observation:
         found = await told(bench)
         found = replace(found, values={**self._settings.commanded(self.setup), **found.values})
-        told_of = (*notices(read_note(self.place)), *self._told(bench, await self.most()))
-        found = replace(found, problems=(*found.problems, *told_of))
+        said = self._told(bench, await self.most(), await self.untried())
+        found = replace(found, problems=(*found.problems, *notices(read_note(self.place)), *said))
         return sensed(
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip
@@ -282,7 +304,7 @@ class HardwareDevice:
         self._session = HardwareSession(
             self.setup, bench, known, motion=self._motion, arms=self.arms(), tell=tell, now=self.links.now,
             pause=self.links.pause, measure=self._measured, image=Readers(self.setup, self.place.root, bench).image,
-            keep=self._settings.put, untried=self.links.untried(), most=most,
+            keep=self._settings.put, untried=await self.untried(), most=most,
             require=require, darken=self.links.lights().tripped,
         )  # fmt: skip
         session, lights = self._session, self.links.lights()
@@ -308,6 +330,11 @@ class HardwareDevice:
         """Have an arm go along a path, for who has taken the bench and tries it out; see `HardwareSession.walk`."""
         assert self._session is not None  # only who has taken the device moves
         await self._session.walk(path, speed)
+
+    async def try_motion(self, robot: str) -> Mapping[str, float]:
+        """Have an arm do the motion test of its driver, for who has taken the bench; see `HardwareSession`."""
+        assert self._session is not None  # only who has taken the device moves
+        return await self._session.try_motion(robot)
 
     async def halt(self) -> None:
         """Bring everything under way to its safe end."""

@@ -87,12 +87,10 @@ class Links:
             self._about = wired(self.setup, self.entries, Buses(), Settings(self.place))
         return self._about
 
-    def untried(self) -> frozenset[str]:
-        """Return the robots of a real bench whose driver was never tried on a device."""
-        if self._bring_up is not None:
-            return frozenset()
-        found = ((entry.of or name, known_driver(entry.driver)) for name, entry in self.entries.items())
-        return frozenset(of for of, about in found if about and about.kind == "arm" and about.maturity != "on device")
+    def arm_devices(self) -> dict[str, str]:
+        """Return the device that moves each robot, by robot."""
+        found = ((entry.of or name, name, known_driver(entry.driver)) for name, entry in self.entries.items())
+        return {robot: name for robot, name, about in found if about and about.kind == "arm"}
 
     @property
     def connected(self) -> Instruments | None:

@@ -7,6 +7,7 @@ from collections.abc import Awaitable, Mapping
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
+from pico.backends.hardware.clearing import fault_warnings
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
@@ -52,6 +53,8 @@ async def told(bench: Instruments) -> Told:
         if not isinstance(state, PicoError) and state.lost:
             text = f"{name} was lost, for {state.lost}, and was found again"
             problems.append(warning(LOST, text, hint="it is got ready again by the next run", address=name))
+    ill = [name for name, state in states.items() if not isinstance(state, PicoError) and state.fault]
+    problems += await fault_warnings(bench, ill)
     for address, found in {**values, **inputs}.items():
         if isinstance(found, PicoError) and found.diagnostics[0].code not in LACKING:  # told once a device
             said = found.diagnostics[0]

@@ -21,9 +21,11 @@ from pico.backends.hardware.rehearsing import rehearse
 from pico.backends.hardware.setting import driven, ranged
 from pico.backends.hardware.walking import FIRST_SPEED, Way, speed_of
 from pico.backends.measured import Reading
+from pico.backends.pushed import pushed, with_pushed
 from pico.backends.routines import asked_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
-from pico.drivers.protocols import Arm
+from pico.drivers.protocols import Arm, MotionTested
+from pico.model.commissioning import ONE_MOTION
 from pico.model.instruments.kind import Driven
 from pico.model.observation import Observation, ObservedComponent, slot_at
 from pico.model.operation import Operation, OperationResult, Reason
@@ -48,9 +50,9 @@ Measuring = Callable[[str, str, list[str]], Awaitable["Measurement"]]
 class HardwareSession:
     """Executes operations. `known`: what is known of the bench, asked in threads; `arms`: as calibration knows them;
     `now`: the bench's clock [s]; `keep`: keeps what was commanded and nobody reads, None where nobody knows it any
-    more; `untried`: robots whose driver was never tried on a device; `most`: the greatest speed of tools [mm/s], where
-    a person may be near; `require`: see `pico.backends.device.Device.take`; `darken` ends light beside that, and keeps
-    why."""
+    more; `untried`: robots whose motion test did not pass on their device; `most`: the greatest speed of tools [mm/s],
+    where a person may be near; `require`: see `pico.backends.device.Device.take`; `darken` ends light beside that, and
+    keeps why."""
 
     def __init__(
         self, setup: Setup, bench: Instruments, known: BySight, *, motion: Motion, arms: Mapping[str, TwinArm],
@@ -79,6 +81,8 @@ class HardwareSession:
         """
         if self._stopped or self._light_ended:
             raise PicoError(self._light_ended or checks.STOPPED, ExitCode.INTERRUPTED)
+        if operation.robot in self._moved & self._untried:
+            raise PicoError(one_motion(operation.robot or ""), ExitCode.INTERRUPTED)
         task = self._under_way[key] = asyncio.create_task(self._attempt(operation, key, began))
         task.add_done_callback(lambda _: self._under_way.pop(key, None))
         return await asyncio.shield(task)
@@ -98,7 +102,7 @@ class HardwareSession:
             if self._light_ended and operation.primitive in ("measure", "auto_range"):
                 raise Failed(self._light_ended)  # it may have been measured in the dark
         except Failed as exc:
-            failure = self._ended() if self._stopped else exc
+            failure, data = self._ended() if self._stopped else exc, exc.data
         except PicoError as exc:
             failure = self._ended() if self._stopped else failed(operation, exc)
         except Exception as exc:
@@ -150,6 +154,19 @@ class HardwareSession:
         except asyncio.CancelledError:  # nobody waits for it any more
             await self._halt_all()
             raise
+
+    async def try_motion(self, robot: str) -> Mapping[str, float]:
+        """Have the driver of an arm do its own motion test, with all that is kept to for an operation; return what it
+        measured. Raises Failed, and PicoError for what is not as it should be."""
+        arm = self._bench.arms[robot]
+        if not isinstance(arm, MotionTested):
+            raise Failed(error("motion-test", f"the driver of {robot} has no motion test", address=robot))
+        operation = Operation(
+            id="commission", primitive="park", component=robot, robot=robot, resources=(robot,),
+            reason=Reason(kind="asked"),
+        )  # fmt: skip
+        self._require_running()
+        return await self._guarded(operation, arm.motion_test)
 
     def carried(self) -> dict[str, str]:
         """Return what arms that are on their way carry, by robot."""
@@ -317,10 +334,11 @@ class HardwareSession:
 
     async def _gone(self, operation: Operation, key: str, path: MovePath, start: Pose) -> None:
         """Have an arm go along a path with what it took at `start`, or is to take there; says what became of that."""
-        name = operation.component
+        name, before = operation.component, await self._seen()
         try:
             await self._walked(operation, key, path)
         except _Back as way:
+            self._moved.discard(way.path.robot)  # it goes back with what it holds, whatever was tried of it
             await self._walked(operation, key, way.path)
             raise Failed(checks.put_back(name, slot_at(self._setup, start) or str(start))) from way
         except Failed as exc:
@@ -329,8 +347,9 @@ class HardwareSession:
             await self._withdraw(operation)
             if exc.diagnostic.code == "put-back":
                 raise
-            part = await self._asked(self._known.confirm, name, start)
-            raise Failed(checks.found_again(exc.diagnostic, name, part), exc.outcome) from exc
+            part = await self._asked(self._known.find, name)
+            said = Failed(checks.found_again(exc.diagnostic, name, part), exc.outcome, exc.data)
+            raise with_pushed(said, before, pushed(self._setup, before, await self._seen(), name)) from exc
 
     async def _park(self, operation: Operation, key: str) -> Mapping[str, Any]:
         robot = operation.robot or operation.component
@@ -395,11 +414,9 @@ class HardwareSession:
                 raise _Back(back)
 
     def _require_one_step(self, robot: str) -> None:
-        """Raise Failed for a second motion of an arm whose driver was never tried on a device, in one go."""
+        """Raise Failed for a second motion in one go of an arm whose motion test did not pass."""
         if robot in self._untried and robot in self._moved:
-            text = f"the driver of {robot} was never tried on a device: it makes one motion at a time, at 50 mm/s"
-            hint = "a hand on the stop; then run the next one. `pico devices` says how far each driver was tried"
-            raise Failed(error("first-motion", text, hint=hint, address=robot))
+            raise Failed(one_motion(robot))
         self._moved.add(robot)
 
     async def _require_kept(self, robot: str) -> None:
@@ -451,6 +468,13 @@ class HardwareSession:
             component=operation.component, data=data,
         )  # fmt: skip
         self._tell_all(event)
+
+
+def one_motion(robot: str) -> Diagnostic:
+    """Return that an arm makes one motion a command, and what lifts that."""
+    text = f"the motion test of {robot} did not pass on this device: it makes one motion a command, at 50 mm/s"
+    hint = "keep a hand on the stop; `pico commission --only motion` runs the test, then plans run whole"
+    return error(ONE_MOTION, text, hint=hint, address=robot)
 
 
 class _Back(Exception):

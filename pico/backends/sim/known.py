@@ -37,7 +37,11 @@ class Known(Protocol):
         ...
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
-        """Look at a part that was put down near a pose, or lost, and return it."""
+        """Look at a part that was put down near a pose, and return it."""
+        ...
+
+    def find(self, component: str) -> ObservedComponent:
+        """Look at the whole table for a part that was lost, and return it; `missing` if nothing shows it."""
         ...
 
 
@@ -64,5 +68,9 @@ class Exactly:
         """See where it then stands."""
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
+        """Return the part as it is."""
+        return self.seen().components[component]
+
+    def find(self, component: str) -> ObservedComponent:
         """Return the part as it is."""
         return self.seen().components[component]

@@ -16,6 +16,7 @@ from pico.backends.attempt import Failed, attempt
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began
 from pico.backends.halting import sooner, way_out
+from pico.backends.pushed import pushed, with_pushed
 from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
 from pico.backends.routines import asked_of
 from pico.backends.sim.bodies import snapshot
@@ -307,19 +308,24 @@ class WorldSession:
         checks.require_dark(self._setup, self._known.seen(), operation)
         actual = replace(operation, arguments={**operation.arguments, "from": {"pose": as_json(start)}})
         self._known.takes(name, path)
+        before = self._known.seen()
         try:
             with self._zones.held(operation, path):
                 return (yield from self._reported(actual, key, path, self._mover.move(actual, path, stands), fault))
         except Failed as exc:
+            lost = exc.diagnostic.code in checks.LOST
+            if lost and self._known.corrections and not self._halting:  # what is known exactly needs no look
+                with suppress(Failed):  # cameras then see what the arm hides
+                    yield from self._withdraw(path.robot)
             try:
-                part = self._known.confirm(name, start)
+                part = self._known.find(name) if lost else self._known.confirm(name, start)
+                others = pushed(self._setup, before, self._known.seen(), name)
             except Failed:  # nothing can be seen, which is not what went wrong first
                 raise exc from None
-            if exc.diagnostic.code not in checks.LOST:
+            if not lost:
                 raise
-            raise Failed(
-                checks.found_again(exc.diagnostic, name, part, f" (here `pico sim nudge {name}`)"), exc.outcome
-            ) from exc
+            said = checks.found_again(exc.diagnostic, name, part, f" (here `pico sim nudge {name}`)")
+            raise with_pushed(Failed(said, exc.outcome, exc.data), before, others) from exc
 
     def _take(self, operation: Operation, key: str) -> InProgress:
         """Take a part in hand where it stands, a hair above its place."""

@@ -74,7 +74,7 @@ def _repeated(at: AtBench, kind: str, name: str) -> dict[str, Any]:
         raise PicoError(error(CODE, f"there is no free slot to which {name} could be taken", address=name))
     if len(places) == 1:
         places = [*places, start] if start else [*places, ""]
-    untried = bool(at.device.links.untried())
+    untried = bool(at.bench.wait(at.device.untried()))
     if not untried:
         at.require(f"Take {name} ({kind}) {at.repeats} times from slot to slot?")
     off: list[tuple[float, float]] = []

@@ -38,11 +38,11 @@ def first_move(at: AtBench) -> Found:
         return NO_ARM
     found = {}
     for robot in _arms(at):
-        speed = FIRST_SPEED if robot in at.device.links.untried() else NEAR
+        speed = FIRST_SPEED if robot in at.bench.wait(at.device.untried()) else NEAR
         _parked(at, robot, speed)
         out = _way(at, robot)
         at.require_hand_on_stop(f"{robot} turns about its base, its tool at {speed:g} mm/s at most")
-        seconds = _attended(at, _walked(at, robot, out, speed))
+        seconds = attended(at, _walked(at, robot, out, speed))
         _parked(at, robot, speed)
         found[robot] = {"speed_mm_s": round(min(speed, speed_of(at.edge.setup, out)), 1), "seconds": round(seconds, 2)}
     told = ", ".join(f"{robot} at {one['speed_mm_s']:g} mm/s" for robot, one in found.items())
@@ -56,12 +56,12 @@ def stop_distance(at: AtBench) -> Found:
         return NO_ARM
     found = {}
     for robot in _arms(at):
-        speed = FIRST_SPEED if robot in at.device.links.untried() else NEAR
+        speed = FIRST_SPEED if robot in at.bench.wait(at.device.untried()) else NEAR
         for left in reversed(range(TRIES)):
             _parked(at, robot, speed)
             out = _way(at, robot)
             at.require_hand_on_stop(f"{robot} turns at {speed:g} mm/s at most, and is stopped on its way")
-            stopped = _attended(at, _stopped(at, robot, out, speed))
+            stopped = attended(at, _stopped(at, robot, out, speed))
             _parked(at, robot, speed)
             if stopped is not None:
                 found[robot] = {**stopped, "speed_mm_s": round(min(speed, speed_of(at.edge.setup, out)), 1)}
@@ -77,7 +77,7 @@ def stop_distance(at: AtBench) -> Found:
     return Found(told=f"{told}; the hard-wired stop: {hand}", data={"arms": found, "hard_wired": hand})
 
 
-def _attended(at: AtBench, work: Coroutine[Any, Any, T]) -> T:
+def attended(at: AtBench, work: Coroutine[Any, Any, T]) -> T:
     """Return what comes of a motion; a signal stops the arm, and does what it would have done once that stands."""
     came: list[int] = []
 
@@ -118,7 +118,7 @@ def _parked(at: AtBench, robot: str, speed: float) -> None:
     if isinstance(found, Blocked):
         raise PicoError(checks.blocked(robot, found).diagnostic)
     at.require_hand_on_stop(f"{robot} goes to its park pose, its tool at {speed:g} mm/s at most")
-    _attended(at, _walked(at, robot, found, speed))
+    attended(at, _walked(at, robot, found, speed))
 
 
 def _way(at: AtBench, robot: str) -> MovePath:

@@ -18,6 +18,7 @@ from pico.bench.commissioning.reaching import reach
 from pico.bench.commissioning.seeing import calibration, drift
 from pico.bench.commissioning.standing import HOURS, REPEATS, Asking, AtBench, Declined, Found
 from pico.bench.commissioning.swinging import first_move, stop_distance
+from pico.bench.commissioning.trying import motion
 from pico.bench.lasers import person_of
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.local import LocalEdge
@@ -26,7 +27,7 @@ from pico.model.record import record
 from pico.policy.commissioning import until, why_not
 
 DOING: Mapping[Step, Callable[[AtBench], Found]] = {
-    "devices": devices, "identities": identities, "calibration": calibration, "reach": reach,
+    "devices": devices, "identities": identities, "calibration": calibration, "reach": reach, "motion": motion,
     "first_move": first_move, "stop_distance": stop_distance, "safety_inputs": safety_inputs,
     "pick_and_place": pick_and_place, "drift": drift,
 }  # fmt: skip

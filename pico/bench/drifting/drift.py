@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import statistics
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from pico.backends.pushed import PUSHED
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.model.diff import Change, addresses_of, value_distance
 from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from pico.runs.journal import JournalRecord
 
 Who = Literal["operation", "person", "unknown"]
+Ends = Callable[[str], Mapping[str, Any] | None]
+"""How the bench was observed at the end of a run, by its id; None if nobody knows."""
 ALIKE = 0.3
 """Displacements that differ by no more than this are one, that of what measures them [mm]."""
 
@@ -137,8 +140,10 @@ def _displacement(change: Change) -> tuple[float, float] | None:
     return None
 
 
-def drift(setup: Setup, seen: Observation, change: Change, records: Iterable[JournalRecord]) -> Drift:
-    """Return a change with how surely it was seen, and who made it as far as the journal knows."""
+def drift(
+    setup: Setup, seen: Observation, change: Change, records: Iterable[JournalRecord], ends: Ends = lambda run: None
+) -> Drift:
+    """Return a change with how surely it was seen, and who made it as far as the journal knows; `ends`: see `who`."""
     part = seen.components.get(change.component) or ObservedComponent(presence="missing")
     kind = setup.type_of(change.component)
     if change.tunable == "pose":
@@ -147,7 +152,7 @@ def drift(setup: Setup, seen: Observation, change: Change, records: Iterable[Jou
         tunable = kind.tunables[change.tunable]
         tolerance = f"{tunable.tolerance:g} {tunable.unit}".rstrip() if tunable.datatype == "float" else "none"
     by: Who = "unknown"
-    by, how = (by, "") if change.tolerated else who(setup, part, change, records)
+    by, how = (by, "") if change.tolerated else who(setup, part, change, records, ends)
     return Drift(
         change=change, tolerance=tolerance, age=part.age, by=by, how=how, presence=part.presence,
         by_hand="" if change.tolerated else by_hand(setup, part, change),
@@ -171,12 +176,17 @@ def by_hand(setup: Setup, part: ObservedComponent, change: Change) -> str:
 
 
 def who(
-    setup: Setup, part: ObservedComponent, change: Change, records: Iterable[JournalRecord]
-) -> tuple[Who, str]:  # fmt: skip
-    """Return who changed a tunable last, and how that is known.
+    setup: Setup,
+    part: ObservedComponent,
+    change: Change,
+    records: Iterable[JournalRecord],
+    ends: Ends = lambda run: None,
+) -> tuple[Who, str]:
+    """Return who changed a tunable last, and how that is known. `ends`: how the bench was observed at the end of a run.
 
-    `operation` where the last one that touched it left it as it is now, or nobody knows how that one ended, or a hand
-    holds it; `person` where a part stands elsewhere than any left it; `unknown` for what else can change by itself.
+    `operation` if the last one that moved or pushed it left it as it is now, or failed in a run at whose end it was as
+    it is now, or nobody knows how that one ended, or a hand holds it; `person` if a part stands elsewhere than any left
+    it; `unknown` for what else can change by itself.
     """
     records = tuple(records)
     if part.presence == "held" and (begun := [r.key for r in records if _intends(r, change)]):
@@ -188,8 +198,8 @@ def who(
     if cut or (last and last.kind == "unknown"):
         how = "whose optimization was cut short" if cut else "of which nobody knows how it ended"
         return "operation", f"run {cut or run}, {how}"
-    if last and _as_left(setup, change, part, _after(last, change)):
-        return "operation", f"run {run}, {last.at}"
+    if last and (how := _by_run(setup, change, part, last, ends)):
+        return "operation", f"run {run}{how}"
     placed = f"last {'placed' if change.tunable == 'pose' else 'set'} by run {run}, {last.at}" if last else ""
     if change.tunable == "pose":
         home = setup.lab.inventory[change.component].home
@@ -197,6 +207,17 @@ def who(
             return "unknown", "at home, where a new bench has it"
         return "person", placed or "no run placed it"
     return "unknown", placed or "no run set it"
+
+
+def _by_run(setup: Setup, change: Change, part: ObservedComponent, last: JournalRecord, ends: Ends) -> str:
+    """Return how the run of the last operation that touched a tunable left it as it is now, in words; '' if it did
+    not."""
+    if _as_left(setup, change, part, _after(last, change)):
+        return f"{', which pushed it' if change.component in _pushed(last) else ''}, {last.at}"
+    if last.kind != "failed":
+        return ""
+    at_end = ((ends(last.key.split("/")[0]) or {}).get("components") or {}).get(change.component)
+    return ", in which an arm lost it" if at_end and _as_left(setup, change, part, at_end) else ""
 
 
 def _cut_short(records: Sequence[JournalRecord], change: Change) -> str:
@@ -215,7 +236,7 @@ def _touching(records: Iterable[JournalRecord], change: Change) -> list[JournalR
     for r in records:
         if _intends(r, change):
             wanted.add(r.key)
-        elif r.key in wanted:
+        elif r.key in wanted or (change.tunable == "pose" and change.component in _pushed(r)):
             found.append(r)
     return found
 
@@ -230,8 +251,16 @@ def _intends(r: JournalRecord, change: Change) -> bool:
     return arguments.get("tunable") == change.tunable or (change.tunable == "pose" and moves)
 
 
+def _pushed(record: JournalRecord) -> Mapping[str, Any]:
+    """Return the components that an operation moved beside its own, as it left them, by name."""
+    found: Mapping[str, Any] = (record.data.get("data") or {}).get(PUSHED) or {}
+    return found
+
+
 def _after(last: JournalRecord, change: Change) -> Mapping[str, Any]:
     """Return a component as an operation left it; of an optimization its tunables, of whatever component."""
+    if change.component in (pushed := _pushed(last)):
+        return pushed[change.component]  # type: ignore[no-any-return]
     address = f"{change.component}.{change.tunable}"
     found = (last.data.get("data") or {}).get("last") or {}
     if address in found:

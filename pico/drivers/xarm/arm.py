@@ -6,7 +6,7 @@ import asyncio
 import math
 import socket
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from typing import Any, TypeVar
 
@@ -17,12 +17,13 @@ from pico.drivers.bus import BEAT, LONGEST, Bus
 from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import ArmState, Identity
-from pico.drivers.xarm.faults import clearable, told
+from pico.drivers.xarm.faults import box_fault, clearable, told
 from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
 from pico.drivers.xarm.path import Path, checked
 from pico.drivers.xarm.settings import FENCE, PROPERTIES, SETTINGS, differing, settings
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
+from pico.model.instruments.fault import DeviceFault
 from pico.model.wiring import DeviceEntry
 
 T = TypeVar("T")
@@ -39,6 +40,9 @@ _RETURNED = 0.5
 
 class XArm:
     """Implements `pico.drivers.protocols.Arm`."""
+
+    test = "it turns its last joint by 5 deg, out and back, and is stopped on its way"
+    """What its motion test does."""
 
     def __init__(self, name: str, entry: DeviceEntry, bus: Bus[Link]) -> None:
         """Open nothing yet. Raises PicoError for settings that make no sense."""
@@ -111,8 +115,23 @@ class XArm:
     async def recover(self, *, by_person: bool = False) -> ArmState:
         """Clear a fault that may be cleared, and get ready; `by_person`: any fault, for a person looked at the arm and
         says so. Raises PicoError naming what a person must do."""
-        await self._line.ask("clear its fault", lambda link: self._cleared(link, by_person))
+        await self.clear(by_person=by_person)
         return await self.ready()
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the fault of the control box, if it has one. Raises PicoError if the link is lost."""
+        number = await self._line.ask("tell its fault", Link.fault)
+        return (box_fault(self.name, number),) if number else ()
+
+    async def clear(self, *, by_person: bool = False) -> None:
+        """Clear the fault of the control box, see `pico.drivers.protocols.Faulting`."""
+        await self._line.ask("clear its fault", lambda link: self._cleared(link, by_person))
+
+    async def motion_test(self) -> Mapping[str, float]:
+        """Try its motion, its stop and its limits, see `pico.drivers.protocols.MotionTested`; raises PicoError."""
+        from pico.drivers.xarm.testing import motion_test
+
+        return await motion_test(self.name, self)
 
     async def close(self) -> None:
         """Let go of the link."""

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from pico.diagnostics import Diagnostic, error
+from pico.model.instruments.fault import AGAIN, DeviceFault, fault_diagnostic
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +66,8 @@ BOX: Mapping[int, Fault] = {
 }
 """By the number that the control box reports."""
 
+_UNLISTED = Fault("the vendor's list does not say what that is", _VENDOR)
+
 GRIPPER: Mapping[int, str] = {
     9: "its current can't be measured",
     11: "its current is too high",
@@ -80,18 +83,31 @@ GRIPPER: Mapping[int, str] = {
     34: "its motor is overloaded",
     36: "its driver is of another type",
 }
+GRIPPER_CHECK = (
+    "see what blocks its fingers, and remove it; if nothing does, and it comes back, ask the vendor's support"
+)
+"""What a person checks for any fault of the gripper."""
 
 
 def told(name: str, number: int, doing: str = "") -> Diagnostic:
     """Return what a fault of the control box is, for a person; `doing`: the operation that met it."""
-    known = BOX.get(number, Fault("the vendor's list does not say what that is", _VENDOR))
+    known = BOX.get(number, _UNLISTED)
     return error(
         "arm-fault",
         f"{name} stopped{f' during {doing}' if doing else ''} with fault C{number}: {known.means}",
         detail="it may be cleared from here" if known.clearable else "it is cleared only after a person was there",
-        hint=known.must,
+        hint=known.must if known.clearable else f"{known.must}; then {AGAIN}",
         address=name,
     )
+
+
+def box_fault(name: str, number: int) -> DeviceFault:
+    """Return a fault of the control box, by the number that it reports."""
+    known = BOX.get(number, _UNLISTED)
+    return DeviceFault(
+        device=name, number=f"C{number}", means=known.means, check=known.must, person=not known.clearable,
+        code="arm-fault",
+    )  # fmt: skip
 
 
 def clearable(number: int) -> bool:
@@ -99,8 +115,14 @@ def clearable(number: int) -> bool:
     return number in BOX and BOX[number].clearable
 
 
+def gripper_fault(name: str, number: int) -> DeviceFault:
+    """Return a fault of the gripper, by the number that it reports."""
+    return DeviceFault(
+        device=name, number=f"G{number}", means=GRIPPER.get(number, _UNLISTED.means), check=GRIPPER_CHECK,
+        code="gripper-fault",
+    )  # fmt: skip
+
+
 def gripper_told(name: str, number: int) -> Diagnostic:
     """Return what a fault of the gripper is, for a person."""
-    means = GRIPPER.get(number, "the vendor's list does not say what that is")
-    hint = "see what blocks it; if nothing does, and it comes back, ask the vendor's support"
-    return error("gripper-fault", f"{name} has fault G{number}: {means}", hint=hint, address=name)
+    return fault_diagnostic(gripper_fault(name, number))

@@ -13,10 +13,11 @@ from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import Grip, Identity
 from pico.drivers.xarm.arm import DRIVER as ARM
-from pico.drivers.xarm.faults import gripper_told
+from pico.drivers.xarm.faults import gripper_fault, gripper_told
 from pico.drivers.xarm.library import imported
 from pico.drivers.xarm.link import Link, identity
 from pico.model.instruments.declaration import Setting
+from pico.model.instruments.fault import DeviceFault
 from pico.model.wiring import DeviceEntry
 
 PULSES = 850
@@ -76,6 +77,15 @@ class XArmGripper:
         pulses, status = await self._line.ask("tell where it is", self._where)
         return self._grip(pulses, status, None)
 
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the fault of the gripper, if it has one. Raises PicoError if the link is lost."""
+        number = await self._line.ask("tell its fault", self._fault)
+        return (gripper_fault(self.name, number),) if number else ()
+
+    async def clear(self, *, by_person: bool = False) -> None:
+        """Clear the fault of the gripper, see `pico.drivers.protocols.Faulting`; what it holds it keeps holding."""
+        await self._line.ask("clear its fault", lambda link: self._cleared(link, by_person))
+
     async def stop(self) -> None:
         """Stop the fingers; what they hold they keep holding."""
         await self._line.stop(self._kept)
@@ -94,12 +104,27 @@ class XArmGripper:
 
     def _ask(self, link: Link, what: str, call: Callable[[], Any]) -> Any:
         """As `Link.ask`; a fault of the gripper is told as one."""
-        fault = link.ask(
+        if fault := self._fault(link):
+            raise PicoError(gripper_told(self.name, fault))
+        return link.ask(self.name, what, call, taken=(0, 2))
+
+    def _fault(self, link: Link) -> int:
+        """Return the number of its fault now, 0 for none."""
+        said = link.ask(
             self.name, "tell its fault", lambda: link.arm.get_gripper_err_code(check_baud=False), taken=(0, 2)
         )
-        if fault:
-            raise PicoError(gripper_told(self.name, int(fault)))
-        return link.ask(self.name, what, call, taken=(0, 2))
+        return int(said or 0)
+
+    def _cleared(self, link: Link, by_person: bool) -> None:
+        fault = self._fault(link)
+        if not fault:
+            return
+        if not by_person:
+            raise PicoError(gripper_told(self.name, fault))
+        link.ask(self.name, "clear its fault", lambda: link.arm.clean_gripper_error(check_baud=False), taken=(0, 2))
+        self._enabled = None  # it is enabled again before it moves
+        if still := self._fault(link):
+            raise PicoError(gripper_told(self.name, still))
 
     def _sent(self, link: Link, target: int) -> tuple[int, int]:
         arm = link.arm

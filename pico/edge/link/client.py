@@ -12,6 +12,7 @@ from pico.edge.link import wire
 from pico.edge.link.line import Line
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.arming import Arming
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -250,6 +251,15 @@ class RemoteEdge:
         """Look, and return what was seen."""
         found: Observation = await self._call("observe")
         return found
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that devices of the bench keep."""
+        found: tuple[DeviceFault, ...] = await self._call("faults")
+        return found
+
+    async def clear_fault(self, device: str, by: str) -> None:
+        """Clear the faults of a device, for a person who was at the table."""
+        await self._call("clear_fault", device, by)
 
     async def look(self) -> Look:
         """Look through the cameras and return what they see."""

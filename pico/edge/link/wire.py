@@ -16,6 +16,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.armings import Kept
 from pico.edge.protocol import Holder, Job, Lease, OwnLab
 from pico.model.arming import Arming
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -52,6 +53,8 @@ CALLS: Mapping[str, tuple[tuple[Any, ...], Any]] = {
     "observe": ((), Observation),
     "look": ((), dict[str, Any]),
     "peek": ((str, str), Measurement),
+    "faults": ((), tuple[DeviceFault, ...]),
+    "clear_fault": ((str, str), None),
     "array": ((str,), str),
     "picture": ((str, str, list[str]), dict[str, Any]),
     "acquire": ((str, float), Lease),
@@ -105,6 +108,9 @@ TAKES = frozenset({"acquire", "adopt", "arm", "disarm", "start", "open", "hold",
 """Calls that take the bench, as only the worktree may that it is attached to."""
 HOLDS = frozenset({"execute", "finish", "goes_on", "leave", "jog"})
 """Calls of who has the bench, or an unattended run on it."""
+AT_TABLE = frozenset({"clear_fault"})
+"""Calls that a person at the table makes, over the socket of the bench's own computer: no coordinator relays them, and
+no edge takes them from one."""
 LONGEST = 1 << 28
 """Bytes of the longest line."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from itertools import count
 from typing import TYPE_CHECKING, Protocol
 
@@ -237,6 +237,20 @@ class Custody:
             task = self._under_way[key] = asyncio.create_task(attempts.perform(operation, key))
             task.add_done_callback(lambda _: self._under_way.pop(key, None))
         return await asyncio.shield(self._under_way[key])
+
+    async def clear_fault(self, device: str, by: str) -> None:
+        """Clear the faults of a device while nobody has the bench, see `EdgeCustody`."""
+        from pico.backends.device import Clearable
+
+        bench = self._apparatus.device
+        if not isinstance(bench, Clearable):
+            raise PicoError(error("unknown-device", "the devices of a simulated bench keep no faults"))
+        if self.lease is not None:
+            text = f"{self.lease.holder} has the bench: no fault is cleared meanwhile"
+            raise PicoError(error("locked", text, hint="wait for its end, or end it: `pico stop`"), ExitCode.LOCKED)
+        enrolled = self._lock.granting is not None  # then nobody else takes this lock, and clearing moves nothing
+        with nullcontext() if enrolled else self._lock.held(f"pico recover ({by})"):
+            await bench.clear(device)
 
     # stopping
 

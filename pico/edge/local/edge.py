@@ -20,6 +20,7 @@ from pico.edge.local.licensing import Licensing
 from pico.edge.local.runs import Runs
 from pico.edge.local.sight import Sight
 from pico.edge.protocol import Granting, Holder, Job, Lease, OwnLab
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 from pico.model.operation import Operation, OperationResult, Outcome
@@ -174,6 +175,9 @@ class LocalEdge(Edge):
     async def peek(self, component: str, measurable: str) -> Measurement:
         return await self.sight.peek(component, measurable)
 
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        return await self.sight.faults()
+
     # licensing
 
     async def armings(self) -> tuple[Kept, ...]:
@@ -237,6 +241,9 @@ class LocalEdge(Edge):
     async def perform(self, operation: Operation, key: str) -> OperationResult:
         """Have an operation done by who has the bench, once for each key; cancelling the wait does not cancel it."""
         return await self.custody.perform(operation, key)
+
+    async def clear_fault(self, device: str, by: str) -> None:
+        await self.custody.clear_fault(device, by)
 
     async def halt(self) -> None:
         await self.custody.halt()

@@ -6,9 +6,10 @@ from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from pico.backends.device import Capabilities, Device, Shown
+from pico.backends.device import Capabilities, Clearable, Device, Shown
 from pico.diagnostics import PicoError
 from pico.edge.local.apparatus import Apparatus
+from pico.model.instruments.fault import DeviceFault
 from pico.model.measurement import Measurement
 from pico.model.observation import Observation
 
@@ -50,6 +51,11 @@ class Sight:
         """Acquire a measurable as the bench is, without lease; raises PicoError."""
         self._apparatus.require_kept()
         return await self._apparatus.device.peek(component, measurable)
+
+    async def faults(self) -> tuple[DeviceFault, ...]:
+        """Return the faults that devices keep; raises PicoError for links that are lost."""
+        device = self._apparatus.device
+        return await device.faults() if isinstance(device, Clearable) else ()
 
     def _with_hands(self, seen: Observation) -> Observation:
         """Return the observation with what the journal knows of the parts in the hands: where they were picked."""

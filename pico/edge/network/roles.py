@@ -10,8 +10,9 @@ from pico.edge.link import wire
 Role = Literal["viewer", "operator", "admin", "laser:enable", "lease:steal", "teleop"]
 
 _LOOKING = (
-    "describe", "holder", "unended", "lab", "armings", "unattended", "doses", "observe", "look", "peek", "array",
-    "picture", "events", "live", "report", "film", "world", "world.placements", "world.true_cameras", "world.true_arms",
+    "describe", "holder", "faults", "unended", "lab", "armings", "unattended", "doses", "observe", "look", "peek",
+    "array", "picture", "events", "live", "report", "film", "world", "world.placements", "world.true_cameras",
+    "world.true_arms",
 )  # fmt: skip
 _MOVING = (
     "acquire", "execute", "start", "open", "finish", "cancel", "hold", "goes_on", "leave", "resolve", "disarm",
@@ -28,7 +29,9 @@ def _role(call: str) -> Role:
     return {"arm": "laser:enable", "jog": "teleop", "adopt": "admin"}[call]  # type: ignore[return-value]
 
 
-ROLES: Mapping[str, Role | None] = {call: None if call in ANYBODY else _role(call) for call in wire.CALLS}
+ROLES: Mapping[str, Role | None] = {
+    call: None if call in ANYBODY else _role(call) for call in wire.CALLS if call not in wire.AT_TABLE
+}
 """The role that a call needs; None: any."""
 
 

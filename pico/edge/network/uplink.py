@@ -250,6 +250,10 @@ class Uplink:
         except PicoError as exc:
             yield wire.failure(exc)
             return
+        if name in wire.AT_TABLE:
+            hint = "a person at the table calls `pico recover` at a terminal of the bench's own computer"
+            yield wire.failure(PicoError(error("at-table", f"{name} is not done over a network", hint=hint)))
+            return
         if said.get("command"):
             yield await self._commanded(Command(**said["command"]), name, arguments, taken)
             return

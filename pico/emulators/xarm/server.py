@@ -22,6 +22,7 @@ from pico.emulators.xarm.reports import EVERY, report
 from pico.emulators.xarm.wire import Wire, WireFault
 from pico.motion.types import Joints
 
+_NO_FAULTS = "0 0 0"
 _TICK = 0.005
 _CONNECTIONS = 5
 """The box takes no more at a time, as users of the vendor's report."""
@@ -34,19 +35,24 @@ class XArmEmulator:
 
     `fingers(joints, wanted, now)` says how far apart [mm] the fingers come to rest that are to go to `wanted`;
     `moved(joints, seconds)` is told every step and returns the fault that this meant for the arm, or 0. Both are
-    called from the emulator's thread. What they raise is raised by `close`.
+    called from the emulator's thread. What they raise is raised by `close`. `faults`: the box's fault, the emergency
+    stop that is pressed and the gripper's fault, 0 for none, as `faulted` is told whenever they change.
     """
 
     def __init__(
         self, *, joints: Joints, serial: str = "XI130500000000", pace: float = 1.0, firmware: str = "v2.7.1",
         stroke: float = 84.0, width: float | None = None,
         fingers: Callable[[Joints, float, float], float] | None = None,
-        moved: Callable[[Joints, float], int] | None = None,
+        moved: Callable[[Joints, float], int] | None = None, faults: str = "",
+        faulted: Callable[[str], None] | None = None,
     ) -> None:  # fmt: skip
         claw = Claw(stroke=stroke)
         if width is not None:
             claw.pulses = claw.target = claw.ends = width * 850 / stroke
         self.box = ControlBox(tuple(joints), serial=serial, firmware=firmware, claw=claw, moved=moved)
+        if faults:
+            self.box.error, self.box.pressed, claw.error = (int(number) for number in faults.split())
+        self._faulted, self._faults_told = faulted, faults or _NO_FAULTS
         if fingers:
             claw.fingers = lambda wanted, now: fingers(self.box.joints, wanted, now)
         self.lock = threading.RLock()
@@ -105,6 +111,7 @@ class XArmEmulator:
         self._alive = False
         if self._thread:
             self._thread.join()
+            self._tell_faults()
         self._thread = None
         for open_ in (*self._listeners, *self._controls, *self._readers):
             self._forget(open_)
@@ -135,6 +142,11 @@ class XArmEmulator:
         with self.lock:
             self.box.fail(number)
 
+    def gripper_fault(self, number: int) -> None:
+        """Let the gripper come to a fault now: its fingers stay where they are."""
+        with self.lock:
+            self.box.claw.error = number
+
     def press(self, button: int = 1) -> None:
         """Press an emergency stop (faults 1 to 3); it stays pressed."""
         with self.lock:
@@ -161,8 +173,15 @@ class XArmEmulator:
                     for key, _ in ready:
                         self._receive(key.fileobj)  # type: ignore[arg-type]
                     self._send_due()
+                    self._tell_faults()
         except BaseException as exc:
             self._broken = exc
+
+    def _tell_faults(self) -> None:
+        now = f"{self.box.error} {self.box.pressed} {self.box.claw.error}"
+        if self._faulted and now != self._faults_told:
+            self._faulted(now)
+        self._faults_told = now
 
     def _receive(self, at: socket.socket) -> None:
         if at in self._listeners:

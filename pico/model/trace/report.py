@@ -79,6 +79,8 @@ class RunReport:
     off: Mapping[str, str | float] | None = None
     excepted: tuple[Change, ...] | None = None
     unread: tuple[str, ...] | None = None
+    put_off: int | None = None
+    """How many operations are left for the next command, for an arm made the one motion that it makes at a time."""
     diagnostics: tuple[Diagnostic, ...] = ()
 
     def __repr__(self) -> str:
@@ -99,6 +101,8 @@ class RunReport:
     @property
     def exit_code(self) -> ExitCode:
         """What a command ends with."""
+        if self.put_off and not (self.failed or self.unknown):
+            return ExitCode.CHANGES
         if self.outcome == "interrupted":
             return ExitCode.INTERRUPTED
         if self.outcome != "done" or not self.reached:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 
@@ -41,6 +41,8 @@ class Draft:
     bound: float | None = None
     blocking: tuple[Blocking, ...] | None = None
     diagnostics: tuple[Diagnostic, ...] = ()
+    timed: Callable[[Sequence[Operation]], tuple[Operation, ...]] = tuple
+    """Gives operations the seconds that they take on the bench; those of paths and speeds alone as they are."""
 
     @property
     def errored(self) -> bool:

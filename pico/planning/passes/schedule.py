@@ -14,8 +14,11 @@ Waits = Sequence[Sequence[int]]
 
 
 def scheduled(draft: Draft) -> Draft:
-    """Return the plan with its operations in time."""
-    return replace(draft, operations=schedule(draft.operations))
+    """Return the plan with its operations in time, as long as they take on the bench. What arms need at least is known
+    of paths and speeds alone."""
+    operations = draft.timed(draft.operations)
+    measured = any(op.nominal is not None for op in operations)
+    return replace(draft, operations=schedule(operations), bound=None if measured else draft.bound)
 
 
 def schedule(operations: Sequence[Operation]) -> tuple[Operation, ...]:

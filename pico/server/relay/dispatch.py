@@ -88,7 +88,7 @@ class Dispatcher:
     def call(self, who: Principal, session: str, bench: str, name: str, arguments: list[Any]) -> Call:
         """Return a call that may be made; raises PicoError for one that there is not, and one that the principal may
         not make."""
-        if name not in wire.CALLS:
+        if name not in wire.CALLS or name in wire.AT_TABLE:
             raise PicoError(error("link", f"this is no call that an edge knows: {name[:40]}"))
         who.require(role_of(name, arguments) or "any", bench.partition("/")[0])
         if len(arguments) != (wanted := len(wire.CALLS[name][0])):

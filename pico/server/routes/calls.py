@@ -74,6 +74,6 @@ def _status(answer: Any) -> int:
     return 403 if answer["exit"] == 7 else STATUS.get(code, 400) if code != "internal" else 502
 
 
-for one in wire.CALLS:
+for one in ROLES:
     if one not in LIVING:
         _route(one)

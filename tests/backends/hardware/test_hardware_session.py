@@ -20,7 +20,7 @@ from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.settings import Settings
 from pico.backends.hardware.walking import Way
 from pico.backends.last_seen import Taken
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import ExitCode, PicoError, error
 from pico.drivers.driven import Motorized, Shut
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.model import primitive
@@ -141,6 +141,9 @@ class Known(BySight):
         self.bench.said.append(f"lets go of {component}")
 
     def confirm(self, component: str, near: Pose) -> ObservedComponent:
+        return self.seen().components[component]
+
+    def find(self, component: str) -> ObservedComponent:
         return self.seen().components[component]
 
 
@@ -372,6 +375,39 @@ def test_a_part_that_is_lost_on_the_way_is_told_as_dropped(setup: Setup) -> None
     assert result.error is not None and result.error.code == "dropped"
 
 
+def test_a_part_that_fell_is_looked_for_and_so_is_what_it_pushed(setup: Setup) -> None:
+    bench = Bench(setup)
+
+    class Fell(Known):
+        """The part fell between its places, beside another one."""
+
+        def seen(self) -> Observation:
+            seen = super().seen()
+            there = seen.components["p1"]
+            assert there.pose is not None
+            by = 3.0 if bench.legs >= 4 else 0.0
+            shoved = replace(there, pose=Pose(there.pose.x + by, there.pose.y, there.pose.yaw))
+            return replace(seen, components={**seen.components, "p1": shoved})
+
+        def confirm(self, component: str, near: Pose) -> ObservedComponent:
+            return ObservedComponent(pose=near, how="placed")  # hidden by the arm, which proves nothing
+
+        def find(self, component: str) -> ObservedComponent:
+            assert setup.lab.robots["arm1"].is_parked(bench.joints), "the arm would hide it"
+            return self.seen().components[component]
+
+    async def grip() -> Grip:
+        if bench.legs >= 4 and bench.holding:  # in the transit
+            bench.holding, bench.width, bench.at = False, 10.0, Pose(350.0, 360.0, 2.0)
+        return Grip(width=bench.width, holds=bench.holding)
+
+    bench.grip = grip  # type: ignore[method-assign]
+    result = executed(session(bench, known=Fell(bench)), move())
+    assert result.error is not None and result.after is not None
+    assert "it stands at (350, 360, 2°); it moved p1 by 3.0 mm" in result.error.summary
+    assert result.after.pose == Pose(350.0, 360.0, 2.0) and set(result.data["pushed"]) == {"p1"}
+
+
 @pytest.mark.parametrize(("leg", "name"), [(1, "approach"), (2, "descend"), (3, "lift"), (4, "transit"), (5, "lower")])
 def test_a_fault_of_the_arm_is_told_with_component_operation_and_leg(setup: Setup, leg: int, name: str) -> None:
     bench = Bench(setup)
@@ -515,14 +551,16 @@ def test_an_arm_whose_driver_was_never_tried_makes_one_slow_motion_at_a_time(set
     executed(session(quick), move())
     one = session(bench, untried=frozenset({"arm1"}))
 
-    async def twice() -> tuple[OperationResult, OperationResult]:
+    async def twice() -> tuple[OperationResult, PicoError]:
         first = await one.execute(move(), "run/op3/1", lambda before: None)
         park = Operation(id="op4", primitive="park", component="arm1", robot="arm1", reason=ASKED)
-        return first, await one.execute(park, "run/op4/1", lambda before: None)
+        with pytest.raises(PicoError) as second:
+            await one.execute(park, "run/op4/1", lambda before: pytest.fail("it is not begun"))
+        return first, second.value
 
     first, second = asyncio.run(twice())
     assert first.outcome == "done" and bench.seconds == pytest.approx(20 * quick.seconds)
-    assert second.error is not None and second.error.code == "first-motion"
+    assert second.diagnostics[0].code == "first-motion" and second.exit_code == ExitCode.INTERRUPTED
 
 
 def test_an_axis_is_homed_first_where_nobody_knows_where_it_is_and_read_back(setup: Setup) -> None:

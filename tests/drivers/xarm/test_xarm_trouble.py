@@ -6,9 +6,11 @@ import asyncio
 import contextlib
 import io
 import re
+import runpy
 import threading
 from collections import deque
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from xarm_rig import Rig, rigged
@@ -23,6 +25,7 @@ with contextlib.redirect_stdout(io.StringIO()):
     from xarm.core.config.x_code import ControllerErrorCodeMap, GripperErrorCodeMap
 
 LOST = "no answer|reported nothing|closed the connection|did not answer|failed when it was asked|was lost"
+ROOT = Path(__file__).resolve().parents[3]
 LATE = 30
 """How many reports are on their way, at ten times real pace."""
 
@@ -31,7 +34,8 @@ LATE = 30
 def test_every_fault_of_the_vendors_list_is_told_with_what_a_person_must_do(number: int) -> None:
     found = told("arm1", number, "op3: move lx_100")
     assert found.summary == f"arm1 stopped during op3: move lx_100 with fault C{number}: {BOX[number].means}"
-    assert found.hint == BOX[number].must and found.address == "arm1"
+    way_on = "" if clearable(number) else "; then `pico recover` clears it"
+    assert found.hint == BOX[number].must + way_on and found.address == "arm1"
     assert ("may be cleared" in found.detail) == clearable(number)
 
 
@@ -89,6 +93,30 @@ def test_what_may_be_cleared_is_and_what_may_not_asks_a_person(rig: Rig) -> None
         rig.do(rig.arm.recover())
     assert rig.emulator.box.error == 31
     assert rig.do(rig.arm.recover(by_person=True)).enabled
+
+
+def test_the_faults_of_arm_and_gripper_are_named_and_cleared_by_a_person(rig: Rig) -> None:
+    assert rig.do(rig.arm.faults()) == () == rig.do(rig.gripper.faults())
+    rig.emulator.fault(31)
+    rig.emulator.gripper_fault(11)
+    (arm,), (hand,) = rig.do(rig.arm.faults()), rig.do(rig.gripper.faults())
+    assert (arm.number, arm.person, arm.check) == ("C31", True, BOX[31].must)
+    assert (hand.number, hand.person, hand.means) == ("G11", True, GRIPPER[11])
+    for one in (rig.arm, rig.gripper):
+        with pytest.raises(PicoError, match=r"fault [CG]"):
+            rig.do(one.clear())
+        rig.do(one.clear(by_person=True))
+        assert rig.do(one.faults()) == ()
+    rig.do(rig.arm.ready())
+    assert rig.do(rig.gripper.move_to(40.0)).width == pytest.approx(40.0, abs=0.5)
+
+
+def test_the_page_of_faults_is_as_the_drivers_have_it() -> None:
+    made = runpy.run_path(str(ROOT / ".ci" / "fault_page.py"))
+    page = (ROOT / "docs/reference/faults.md").read_text()
+    assert page == made["page"](), "run `make docs`"
+    assert all(f"| C{number} | {fault.means} | {fault.must} |" in page for number, fault in BOX.items())
+    assert all(f"| G{number} | {means} |" in page for number, means in GRIPPER.items())
 
 
 def test_an_emergency_stop_is_not_cleared_while_it_is_pressed(rig: Rig) -> None:
