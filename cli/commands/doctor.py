@@ -60,7 +60,7 @@ def _journal(session: Session, yes: bool) -> int:
 
     found = salvage_journal(session.here(find_lab(session.folder)), write=yes)
     session.show(salvage, found)
-    return ExitCode.CHANGES if found.damaged and found.aside is None else ExitCode.DONE
+    return ExitCode.CHANGES if found.damaged and not found.written else ExitCode.DONE
 
 
 def _reaching(root: Path, one: Diagnostic) -> Diagnostic:
