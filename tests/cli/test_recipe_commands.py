@@ -388,3 +388,14 @@ def test_the_way_back_to_what_was_checked_out_works_as_it_is_written(turning: Pa
         for command in re.findall(r"`git ([^`]*)`", hint):
             _git(*command.split())
     assert pico("run", "--resume", "--yes").code == 0
+
+
+def test_a_step_whose_values_fail_is_the_one_that_is_named(turning: Path, pico: Pico) -> None:
+    steps = (
+        'steps:\n  - {measure: p1.angle, as: p}\n  - let: {l: "[p]"}\n  - set: {p1.angle: 8}\n  - assert: l[0] < l[1]\n'
+    )
+    head = "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: short, title: Too short}\n"
+    (turning / "recipes/short.yaml").write_text(head + steps)
+    failed = pico("run", "short", "--yes")
+    assert failed.code == 1 and "failed at step 4," in failed.out, failed.out
+    assert "`l` has 1 value, so `l[1]` does not exist" in failed.err and "${" not in failed.err, failed.err
