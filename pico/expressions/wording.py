@@ -97,7 +97,8 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
             return f"there is no function `{name}` that takes this many arguments", begin, end, called
         return f"there is no function `{name}`", begin, end, _meant(name, known)
     if path and ("undeclared reference" in said or "operand of a select" in said):
-        return f"nothing is called `{path[0]}`{_near(path[0], known)}", path.start(), path.end(), ""
+        said, hint = _unknown(path[0], known)
+        return said, path.start(), path.end(), hint
     if overload := _OVERLOAD.search(said):
         operator = WRITTEN.get(overload[1], overload[1])
         return _misfit(operator, overload[2]), start, start + 1, _HINTS.get(operator) or known.get(operator, "")
@@ -108,6 +109,14 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
     words = re.sub(r"token recognition error at: '(.*)'.*", r"an open quote or an unknown sign, `\1`", words)
     hint = _meant(path[0], ()) if path else "`x * x`" if text[start - 1 : start + 1] == "**" else ""
     return f"it can't be read here: {re.sub(r' expecting .*', '', words)}", start, start + 1, hint
+
+
+def _unknown(name: str, known: Collection[str]) -> tuple[str, str]:
+    """Return that nothing has this name, with a hint; of a field of what is a value that it has none."""
+    whole, _, field = name.rpartition(".")
+    if whole in known and not any(other.startswith(f"{whole}.") for other in known):
+        return f"`{whole}` is the value itself and has no `.{field}`", f"write `{whole}`"
+    return f"nothing is called `{name}`{_near(name, known)}", ""
 
 
 def _near(name: str, known: Collection[str]) -> str:

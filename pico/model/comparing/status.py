@@ -253,7 +253,8 @@ def _note(setup: Setup, name: str, part: ObservedComponent | None) -> str:
 
 def _deviation(goal: Pose, live: Pose) -> str:
     turned = angle_between(goal.yaw, live.yaw)
-    return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
+    angle = f", {abs(turned):.2f}°" if abs(turned) >= 0.005 else ""
+    return f"({goal.distance(live):.2f} mm{angle} off)"
 
 
 def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:
