@@ -26,7 +26,6 @@ from pico.model.state import LabState, place_of, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
 from pico.policy.judging.judges import judge_plan, refusal_of
-from pico.runs.unstated_settings import in_words, looked_up
 from pico.vision.calibration import calibration_digest, made_at
 
 if TYPE_CHECKING:
@@ -268,6 +267,8 @@ class Plans:
 
     def _stays(self, seen: Observation, wanted: LabState, revision: str) -> Iterator[Diagnostic]:
         """Yield what was set here and stays as it is, since the state of a revision does not name it."""
+        from pico.runs.unstated_settings import in_words, looked_up
+
         found = looked_up(self.opened.setup, self.opened.edge.memory, seen, wanted)
         if found:
             verb, them = ("stays", "it") if len(found) == 1 else ("stay", "them")

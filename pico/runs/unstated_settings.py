@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from datetime import datetime
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pico.base import clock
 from pico.diagnostics import PicoError
@@ -16,7 +16,9 @@ from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.model.state import LabState
 from pico.planning.parts.phrases import listed
-from pico.runs.memory import Memory
+
+if TYPE_CHECKING:
+    from pico.runs.memory import Memory
 
 _SET = ("set", "optimize", "teleoperate")
 """Primitives that set tunables."""
