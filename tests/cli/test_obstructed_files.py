@@ -214,3 +214,12 @@ def test_a_full_disk_leaves_no_half_of_the_command_that_was_approved(
     monkeypatch.setattr(intention.os, "fsync", full)
     intention.keep(place, "apply")()
     assert not (place.folder / "called.json").exists()
+
+
+def test_doctor_names_a_disk_that_is_full(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    from pico import disk
+
+    assert "disk-full" not in pico("doctor").err
+    monkeypatch.setattr(disk, "LEAST", 1 << 62)
+    full = pico("doctor")
+    assert full.code == 1 and "error[disk-full]" in full.err and "make room there" in full.err, full.err
