@@ -23,6 +23,8 @@ _WORDS = {
         "the disk fails, `dmesg` may say how: copy what matters elsewhere, then call it again",
     ),
 }
+LEAST = 1 << 20
+"""Bytes that a command needs on the disk for what it writes beside data."""
 _SPOKEN = {
     errno.ENOSPC: r"no space left on device|database or disk is full",
     errno.EDQUOT: r"(disk )?quota exceeded",
@@ -147,6 +149,18 @@ def writing(path: Path, *, what: str = "", code: str = "unwritable") -> Iterator
         yield
     except OSError as exc:
         raise PicoError(unwritable(path, exc, what=what, code=code)) from exc
+
+
+def full_disk(folder: Path) -> tuple[Diagnostic, ...]:
+    """Return an error if the disk that holds a folder has no room for what a command writes, else nothing."""
+    try:
+        room = os.statvfs(folder)
+    except OSError:
+        return ()
+    if room.f_bavail * room.f_frsize >= LEAST:
+        return ()
+    what = f"PICO can write nothing below {folder}"
+    return (unwritable(folder, OSError(errno.ENOSPC, ""), what=what, code="disk-full"),)
 
 
 @contextmanager

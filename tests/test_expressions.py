@@ -89,8 +89,8 @@ def test_what_is_not_known_is_named(language: Language) -> None:
     ("components.p1.weight > 1", "there is no `weight` in it"),
     ("distance(p1, p1) > 1", "p1 is no distance from itself"),
     ("operations.all(o, o.tags)", "not go together"),
-    ("operations[7].mass > 1", "there is no [7]: the list has 2 items, [0] to [1]"),
-    ("operations[p2.pose.x - 6].mass > 1", "there is no [-1]"),
+    ("operations[7].mass > 1", "`operations` has 2 values, so `operations[7]` does not exist"),
+    ("operations[p2.pose.x - 6].mass > 1", "`operations[-1]` does not exist"),
     ("operations[p2.angle / 100].mass > 1", "a whole number"),
     ("int('two') > 1", "`two` is no number"),
 ])  # fmt: skip

@@ -633,3 +633,19 @@ def test_light_recipes_searches_and_devices_leave_only_files_of_the_registry(
     seen = {entry.pattern for _, _, entry in files_below(lab) if entry}
     assert {"benches/BENCH/recipes/RUN.jsonl", "benches/BENCH/seen.json"} <= seen
     assert damaged_files(lab, Log.read) == ()
+
+
+def test_after_a_journal_that_was_gone_is_salvaged_new_runs_are_undone_and_nothing_is_resumed(
+    committed: Path, pico: Pico
+) -> None:
+    (committed / ".pico/benches/sim/journal.sqlite").unlink()
+    done = pico("doctor", "--journal", "--yes")
+    assert done.code == 0 and ".damaged" not in done.out and "no old one to set aside" in done.out, done.out
+    nothing = pico("resume", "--yes")
+    assert nothing.code == 1 and "nothing-to-resume" in nothing.err, nothing.err
+    assert pico("set", "p1", "angle=4", "--yes").code == 0
+    resumed = pico("resume", "--yes")
+    assert resumed.code == 1 and "nothing-to-resume" in resumed.err, resumed.err
+    undone = pico("undo", "--yes")
+    assert undone.code == 0 and "4 → " in undone.out, (undone.out, undone.err)
+    assert pico("redo", "--yes").code == 0

@@ -74,11 +74,11 @@ def new(
       pico catalog new my_lens --from plano_convex --set focal_length=80
     """
     from pico.manifest.files import shown_path
-    from pico.manifest.new_type import new_type
+    from pico.manifest.new_type import line_of_part, new_type
 
     session = Session.of(context)
     path = new_type(session.folder, name, base, pairs(given))
-    session.show(new_view, shown_path(path), name=name)
+    session.show(new_view, shown_path(path), name=name, line=line_of_part(session.folder, name))
 
 
 @app.command()

@@ -62,7 +62,7 @@ def _journal(session: Session, yes: bool) -> int:
 
     found = salvage_journal(session.here(find_lab(session.folder)), write=yes)
     session.show(salvage, found)
-    return ExitCode.CHANGES if found.damaged and found.aside is None else ExitCode.DONE
+    return ExitCode.CHANGES if found.damaged and not found.written else ExitCode.DONE
 
 
 def _faults(session: Session) -> tuple[Diagnostic, ...]:
@@ -95,6 +95,7 @@ def _kept(folder: Path) -> tuple[Diagnostic, ...]:
     as Git's own folder knows."""
     from pico.backends.devices import shipped
     from pico.bench.mending.files import damaged_files
+    from pico.disk import full_disk
     from pico.manifest.load import find_lab
     from pico.places.bench import BenchPlace
     from pico.places.lost import lost_bench
@@ -109,4 +110,4 @@ def _kept(folder: Path) -> tuple[Diagnostic, ...]:
         lost = tuple(one for name in shipped() if (one := lost_bench(BenchPlace(root, name))))
     except PicoError:  # what Git's own folder knows is damaged, and told
         lost = ()
-    return (*found, *lost)
+    return (*found, *lost, *full_disk(root))

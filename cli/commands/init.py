@@ -17,7 +17,11 @@ ORDER = 10
 def init(
     context: typer.Context,
     folder: Annotated[
-        Path, typer.Argument(metavar="DIR", help="A folder that is empty or not there yet; without it this one.")
+        Path,
+        typer.Argument(
+            metavar="DIR",
+            help="The folder, this one if not given; files in it stay. For an example, an empty or new one.",
+        ),
     ] = Path(),
     example: Annotated[
         str | None,

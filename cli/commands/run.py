@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 
 from ..arguments import Fidelity, LockTimeout, Seed, Yes
 from ..runs.running import say
@@ -22,7 +22,7 @@ HEADING = "Recipes"
 ORDER = 10
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from pico.recipes.ahead import Foreseen
     from pico.recipes.log import Log
@@ -168,12 +168,19 @@ def _go_on(
     if changed := recipes.changed_since(log):
         session.tell([replace(d, severity="warning") for d in changed])
         if auto_approve or not at_terminal(session):
-            text = f"the bench is not as {found.name} left it when it was cut short"
-            hint = "`pico undo` takes back the last run; at a terminal, without -y, `pico run --resume` asks"
-            raise PicoError(
-                [*(changed if session.json else ()), error("bench-changed", text, hint=hint)], ExitCode.STALE
-            )
+            wrong = _changed(found.name, changed)
+            raise PicoError([*(changed if session.json else ()), wrong], ExitCode.STALE)
     return _carry_out(session, recipes, found, log, until, auto_approve, alone, junit)
+
+
+def _changed(name: str, changed: Sequence[Diagnostic]) -> Diagnostic:
+    """Return why a recipe that was cut short does not go on by itself: the bench has changed, or only the checkout."""
+    asks = "at a terminal, without -y, `pico run --resume` asks"
+    if all(one.code == "checkout-changed" for one in changed):
+        text = f"the bench is as {name} left it, but not what is checked out"
+        return error("checkout-changed", text, hint=f"go back as said above; {asks}")
+    text = f"the bench is not as {name} left it when it was cut short"
+    return error("bench-changed", text, hint=f"`pico undo` takes back the last run; {asks}")
 
 
 def _alone(

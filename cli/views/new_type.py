@@ -5,14 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 
-def text(path: str, *, name: str) -> str:
+def text(path: str, *, name: str, line: str) -> str:
     """Return where it is, and what next."""
     return (
         f"Wrote {path}. Change what is different, `pico validate` checks it; a part of it is a line in lab.yaml:\n"
-        f"  {name}_1: {{type: {name}, marker: 1, home: storage/a1}}"
+        f"  {line}"
     )
 
 
-def data(path: str, *, name: str) -> dict[str, Any]:
-    """Return schema `pico.new_type/v1`: `path`, `name`."""
-    return {"schema": "pico.new_type/v1", "path": path, "name": name}
+def data(path: str, *, name: str, line: str) -> dict[str, Any]:
+    """Return schema `pico.new_type/v1`: `path`, `name`, the `line` of a part."""
+    return {"schema": "pico.new_type/v1", "path": path, "name": name, "line": line}

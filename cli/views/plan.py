@@ -347,6 +347,8 @@ def _bound(plan: Plan) -> str:
 
 def _staging(plan: Plan) -> str:
     s = plan.staging
+    if s.proven and not s.count:
+        return "no part is put aside on the way"
     if s.proven:
         return f"{s.count} staged (fewest possible, proven)"
     return f"{s.count} staged" + (

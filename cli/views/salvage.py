@@ -17,7 +17,7 @@ def text(found: Salvaged) -> str:
     """Return what a new journal holds, what is lost with the old one, and what to call."""
     if not found.damaged:
         return f"The journal of {found.bench} is intact: {count(found.made.intact, 'run')}. Nothing was changed."
-    made, would = found.made, "" if found.aside else "would be "
+    made, would = found.made, "" if found.written else "would be "
     said = [f"The journal of {found.bench} is damaged: {found.broken or 'rows in it are not as they were written'}"]
     said.append(f"  {count(made.intact, 'run')} {would}kept as they are")
     if made.from_commits:
@@ -32,8 +32,9 @@ def text(found: Salvaged) -> str:
             "  A part that a hand took in a lost run, and axes that were set in one, are unknown afterwards: "
             "look at the bench before you move it."
         )
-    if found.aside:
-        said += ["", f"The new journal is in place; the old one is in {found.aside}."]
+    if found.written:
+        old = f"the old one is in {found.aside}" if found.aside else "there was no old one to set aside"
+        said += ["", f"The new journal is in place; {old}."]
     else:
         said += ["", "Nothing was changed. `pico doctor --journal --yes` does this and sets the old journal aside."]
     return "\n".join(said)

@@ -55,7 +55,9 @@ def _cells(row: StatusRow) -> list[str]:
         else valued(row.desired, row.unit)
     )
     desired = paint("yellow", f"{desired} *") if row.edited else desired
-    if row.note:
+    if row.unstated:
+        live = paint("yellow", f"{place(row.live)}{unit}  set, but in no state")
+    elif row.note:
         live = paint("red", row.note)
     elif row.live is None:
         live = "unknown" + paint("red", " !") * row.off
@@ -84,6 +86,7 @@ def _summary(status: Status) -> list[str]:
     pending = sum(r.off and not r.drifted for r in status.rows)
     lost = sum(bool(r.note) for r in status.rows)
     edits = sum(r.edited for r in status.rows)
+    unstated = [r.address for r in status.rows if r.unstated]
     differ = "differs" if drifts == 1 else "differ"
     parts = [
         (edits, f"{count(edits, 'edit')} not committed (*)"),
@@ -92,6 +95,7 @@ def _summary(status: Status) -> list[str]:
             drifts,
             f"{count(drifts, 'setting')} {differ} from both the commit and the manifest (!)",
         ),
+        (len(unstated), f"{count(len(unstated), 'setting')} in no state"),
         (lost, f"{count(lost, 'component')} not seen as it should be"),
         (len(status.unknown), f"{count(len(status.unknown), 'stranger')} on the table"),
     ]
@@ -115,6 +119,10 @@ def _summary(status: Status) -> list[str]:
         advice.append("A run goes on: this is the bench in between.")
     elif pending or drifts:
         advice.append("`pico plan` shows what would move; `pico capture` takes the live values into the manifest.")
+    elif unstated:
+        advice.append(
+            f"`pico capture {' '.join(unstated)}` writes {'it' if len(unstated) == 1 else 'them'} into the manifest."
+        )
     elif edits and not lost:
         advice.append('The bench is as the manifest says; `pico commit -m "why"` keeps it.')
     return [said, *told, *advice]

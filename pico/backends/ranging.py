@@ -42,7 +42,9 @@ def in_vain(name: str, frames: Sequence[Taken]) -> Diagnostic | None:
     """Return why no exposure of a camera shows its light: too much, or none; None where the last frame does."""
     last = frames[-1]
     if last.level >= FULL:
-        text = f"{name} is saturated even at {last.exposure:g} ms, its shortest exposure"
+        was = frames[0].exposure
+        left = f"; the exposure stays there, it was {was:g} ms" if was != last.exposure else ""
+        text = f"{name} is saturated even at {last.exposure:g} ms, its shortest exposure{left}"
         return error("saturated", text, hint="weaken the beam: a filter, a wave plate before a polarizer", address=name)
     if last.level < DARK:
         text = f"no light comes to {name}: its picture stays dark up to {last.exposure:g} ms"

@@ -122,6 +122,8 @@ class StateFile:
         elif sum(one == other for one, other in zip(data, _MARK, strict=False)) >= len(_MARK) - 1:
             raise ValueError("the line with its checksum is damaged")
         else:
+            if not data.strip():
+                raise ValueError("the file is empty")
             document = json.loads(data)
         if isinstance(document, dict):
             document.pop("sha256", None)  # an earlier PICO rewrote the file and carried it along
@@ -218,6 +220,9 @@ class StateFile:
         try:
             own = path.lstat().st_uid == os.geteuid()
         except OSError:
+            if obstacle := next((p for p in path.parents if os.path.lexists(p) and not p.is_dir()), None):
+                aside = ASIDE.format(path=quoted(obstacle), aside=quoted(aside_of(obstacle)))
+                return f"{aside}: it stands where PICO keeps a folder; then call the command again"
             return f"let this user enter its folder (`ls -ld {quoted(path.parent)}`), then call the command again"
         way = f"chmod u+rw {quoted(path)}" if own else f'sudo chown "$USER" {quoted(path)}'
         return f"let this user read and write it: `{way}`; then call the command again"

@@ -6,7 +6,7 @@ is in one commit or in the other.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import replace
 from datetime import datetime
 from types import MappingProxyType
@@ -42,12 +42,15 @@ from pico.model.comparing.status import refuse_unapplied
 from pico.model.diff import Change, diff_states
 from pico.model.observation import Observation, live_state
 from pico.model.plan import Plan
+from pico.model.quantities import Value
+from pico.model.setup import Setup
 from pico.model.state import LabState, home_state, references_of, state_from_json
 from pico.model.trace.report import Captured, Committed
 from pico.model.trace.run import GoalStood
 from pico.places.lost import refusal
 from pico.planning.aligned_values import GoalMet
 from pico.runs.evidence import by_hand, changed_by, evidence, never_here, stands
+from pico.runs.unstated_settings import in_words, unstated_settings
 
 CommitMode = Literal["strict", "capture", "planned"]
 WAIT = "wait for its end, or `pico stop` ends it safely; `pico commit --planned` leaves the bench out"
@@ -72,7 +75,8 @@ class Commits:
         with told_with(self.opened, seen):
             _refuse_in_hand(seen, named)
         kept = _kept(self.folder, seen, named)
-        captured = self._captured(seen, named, self._light(seen), write=write)
+        unstated = self._unstated(seen, self.folder.state)
+        captured = self._captured(seen, named, self._light(seen), unstated, write=write)
         return replace(captured, by_light=kept or None)
 
     def wanted(self, plan: Plan, *only: str, write: bool = True) -> Captured:
@@ -92,11 +96,13 @@ class Commits:
         return self.opened.wait(self.opened.edge.describe()).kept
 
     def _captured(
-        self, seen: Observation, named: Named | None, light: Mapping[str, GoalMet], *, write: bool = True
-    ) -> Captured:
-        """Write what the bench shows, with the values that goals found (`light`); say which of them were written."""
+        self, seen: Observation, named: Named | None, light: Mapping[str, GoalMet], unstated: Mapping[str, Value],
+        *, write: bool = True,
+    ) -> Captured:  # fmt: skip
+        """Write what the bench shows, with the values that goals found (`light`) and settings that no state names
+        (`unstated`); say which values of goals were written."""
         setup = self.folder.setup
-        live, values = live_state(setup, seen, sure=True), {a: one.values[a] for a, one in light.items()}
+        live, values = live_state(setup, seen, sure=True), {**unstated, **_values(light)}
         captured = self.folder.capture(live, named, values, write=write)
         written = {f"{c.component}.{c.tunable}" for c in captured.changes} & light.keys()
         goals = {light[address].goal for address in written}
@@ -107,6 +113,19 @@ class Commits:
         """Return the tunables whose live values a met goal found, of the lab or ready-made."""
         with remembered(_place(self.folder)) as memory:
             return found_by_light(self.folder.setup, memory, seen)
+
+    def _unstated(self, seen: Observation, *states: LabState | None, since: datetime | None = None) -> dict[str, Value]:
+        """Return what was set here and none of `states` names, at `since` or later; see `unstated_settings`."""
+        with remembered(_place(self.folder)) as memory:
+            return unstated_settings(self.folder.setup, memory, seen, *states, since=since)
+
+    def _set_since(self, seen: Observation) -> dict[str, Value]:
+        """Return the settings that a commit adds: those made since HEAD that neither it nor the manifest names. A line
+        that somebody removed and committed stays out."""
+        folder = self.folder
+        head = folder.history().head().commit
+        since = folder.history().resolve(head).time if head else None
+        return self._unstated(seen, folder.committed(), folder.state, since=since)
 
     def _with_own(self, seen: Observation, state: LabState) -> Observation:
         return with_own_values(self.opened, seen, state) if self.folder.setup.lab.goals else seen
@@ -155,7 +174,7 @@ class Commits:
             if not ending:
                 _refuse(folder, self._with_own(seen, folder.state), mode, named, used=self._used())
             if not ending and mode != "planned":
-                captured = self._captured(seen, named, light)
+                captured = self._captured(seen, named, light, self._set_since(seen))
             content = contents(folder, named)
             seen = self._with_own(seen, content.state)
             missed = _unaligned(folder, seen, content.state)
@@ -176,6 +195,7 @@ class Commits:
         made = replace(made, aligned=captured.aligned)
         told = (*cut_short(self.opened, seen), *made.diagnostics, *_uncarried(folder))
         told = (*told, *not_held(folder.setup, content.state, seen, light))
+        told = (*told, *_in_no_state(folder.setup, self._unstated(seen, content.state)))
         return replace(made, diagnostics=(*told, *pending_elsewhere(self.opened.place)))
 
     def draft(self, mode: CommitMode = "strict", *, only: Collection[str] = (), empty: bool = False) -> str:
@@ -190,7 +210,7 @@ class Commits:
         _refuse(folder, self._with_own(seen, folder.state), mode, named, used=self._used())
         captured, state = (Captured(), folder.state)
         if mode != "planned":
-            values = {a: one.values[a] for a, one in self._light(seen).items()}
+            values = {**self._set_since(seen), **_values(self._light(seen))}
             captured, state = folder.preview(live_state(folder.setup, seen, sure=True), named, values)
         content = contents(folder, named)
         if not (captured.files or content.paths or empty or recording.awaited(folder)):
@@ -198,6 +218,19 @@ class Commits:
         among = named.keys() | (content.components or ()) if named else folder.setup.lab.inventory
         changes = tuple(c for c in _changes(folder, state) if c.component in among)
         return default_message(changes, captured.files or content.paths)
+
+
+def _values(light: Mapping[str, GoalMet]) -> dict[str, Value]:
+    return {address: one.values[address] for address, one in light.items()}
+
+
+def _in_no_state(setup: Setup, settings: Mapping[str, Value]) -> Iterator[Diagnostic]:
+    """Yield what a commit does not hold though it was set on the bench."""
+    if settings:
+        them = "it" if len(settings) == 1 else "them"
+        text = f"set on the bench, but in no state: {in_words(setup, settings)}"
+        hint = f"`pico capture {' '.join(settings)}` writes {them} into the manifest"
+        yield Diagnostic("note", "in-no-state", text, hint=hint)
 
 
 def _kept(folder: LabFolder, seen: Observation, named: Named | None) -> tuple[str, ...]:

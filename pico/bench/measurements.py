@@ -16,6 +16,7 @@ from pico.model.plan import Plan
 from pico.model.request import read_peeked, read_values
 
 if TYPE_CHECKING:
+    from pico.model.catalog import ComponentType
     from pico.model.goal import Goal
     from pico.model.measurement import Measurement
     from pico.model.trace.expectation import GoalRead, Verified
@@ -71,7 +72,7 @@ class Measurements:
         setup = self.opened.setup
         if "not saturated" in found.not_assured:
             kind = setup.type_of(found.component) if found.component in setup.lab.inventory else None
-            if kind and "auto_range" in kind.primitives:
+            if kind and "auto_range" in kind.primitives and not _at_shortest(kind, found):
                 return f"`pico do {found.component} auto_range` finds an exposure that suits"
             return "weaken the beam with a filter, or lower the gain"
         return self.dark() if found.unknown else ""
@@ -202,6 +203,13 @@ class Measurements:
         seen = self.opened.observe()
         found = check_expectations(self.opened.setup, seen, plan.target.expect or (), self._measurables())
         return Verified(goal=plan.target.name, observed_at=seen.observed_at, expectations=found)
+
+
+def _at_shortest(kind: ComponentType, found: Measurement) -> bool:
+    """Return whether a measurement was taken at the shortest exposure that its camera has."""
+    exposure, used = kind.tunables.get("exposure"), found.settings.get("exposure")
+    least = exposure.range[0] if exposure and exposure.range else None
+    return least is not None and isinstance(used, int | float) and used <= least * (1 + 1e-9)
 
 
 def _within_noise(found: Measurement) -> bool:

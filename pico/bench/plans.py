@@ -112,6 +112,8 @@ class Plans:
         seen = self.opened.observe()
         old = expired(self.opened.setup, made_at(folder.root), clock.now())
         told = (*cut_short(self.opened, seen), *_strangers(seen), *old, *manifests.told)
+        if revision and not targets:
+            told = (*told, *self._stays(seen, wanted, revision))
         return self.to_state(seen, goal, told=told, calibration=calibration_digest(folder.root))
 
     def aligns(self, asked: bool | None = None) -> bool:
@@ -281,6 +283,16 @@ class Plans:
             return found.because("checkout")
         self.opened.folder.refuse_edits()
         return self.plan(revision, exact=exact).because("checkout")
+
+    def _stays(self, seen: Observation, wanted: LabState, revision: str) -> Iterator[Diagnostic]:
+        """Yield what was set here and stays as it is, since the state of a revision does not name it."""
+        from pico.runs.unstated_settings import in_words, looked_up
+
+        found = looked_up(self.opened.setup, self.opened.edge.memory, seen, wanted)
+        if found:
+            verb, them = ("stays", "it") if len(found) == 1 else ("stay", "them")
+            text = f"{in_words(self.opened.setup, found)} {verb} as set: the state of {revision} does not name {them}"
+            yield Diagnostic("note", "in-no-state", text)
 
     def measuring(self, wanted: Sequence[tuple[str, str]], goals: Sequence[Turn] = ()) -> Plan:
         """Return the plan that measures measurables, each as its component and its name; before that `goals` where

@@ -11,7 +11,7 @@ from pico.bench.in_use import refuse_in_use
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
 from pico.bench.undo import intention
-from pico.bench.undo.choice import begun_by, called, chosen, document_of, not_in_place
+from pico.bench.undo.choice import begun_by, called, chosen, document_if_any, document_of, not_in_place
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.model.address import renamed_state, renaming_of
 from pico.model.comparing.drift import drift_of
@@ -177,8 +177,8 @@ class Recovery:
 
     def _as_before(self, memory: Memory) -> None:
         """Move the bench in the fidelity of the last run, unless somebody asked for another."""
-        if not self.opened.asked and (last := memory.last()):
-            self.opened.suit(document_of(memory, last))
+        if not self.opened.asked and (last := memory.last()) and (plan := document_if_any(memory, last)):
+            self.opened.suit(plan)
 
     def settle(self) -> tuple[Diagnostic, ...]:
         """Record what became of operations that a killed run had begun, though there is nothing left to move, and have
@@ -298,9 +298,10 @@ def _recorded(began: Plan, last: RunRecord) -> Diagnostic:
 
 def _goes_on(memory: Memory) -> str:
     """Return what goes on with a run that was cut short, where hands were only emptied after it."""
-    before = [(run, document_of(memory, run).target) for run in memory.runs()]
-    run, target = next(((r, t) for r, t in reversed(before) if t.cause != "recover"), before[-1])
-    if run.outcome == "done" or target.cause not in (None, "checkout"):
+    runs = reversed(memory.runs())
+    known = ((run, plan.target if (plan := document_if_any(memory, run)) else None) for run in runs)
+    run, target = next(((r, t) for r, t in known if t is None or t.cause != "recover"), (None, None))
+    if run is None or target is None or run.outcome == "done" or target.cause not in (None, "checkout"):
         return "`pico plan` shows what differs now"
     words = ["pico apply", target.revision, f"-- {' '.join(target.only)}" if target.only else None]
     return f"`{' '.join(filter(None, words))}` goes on with {run.run}, which was cut short before that"
@@ -312,8 +313,9 @@ def state_before(
     """Return the bench before the first of some runs, the newest first, and which of the components that were `touched`
     a hand held then: they are where the run before found them."""
     names = renaming_of(setup.lab)
-    documents = (document_of(memory, run).base.state for run in runs)
-    states = (renamed_state(names, state_from_json(setup.lab.name, base)) for base in documents)
+    plans = (document_of(memory, run) if run is runs[0] else document_if_any(memory, run) for run in runs)
+    bases = (plan.base.state for plan in plans if plan)  # an older run that was salvaged has none
+    states = (renamed_state(names, state_from_json(setup.lab.name, base)) for base in bases)
     parts = dict(next(states).components)
     held = [name for name in sorted(touched) if name not in parts]
     for state in states:

@@ -23,6 +23,7 @@ from pico.model.lab import HealLimit
 from pico.model.observation import LACKING, Observation
 from pico.model.record import record
 from pico.model.trace.report import RunReport
+from pico.runs.unstated_settings import looked_up
 
 if TYPE_CHECKING:
     from pico.model.comparing.status import Status
@@ -59,11 +60,10 @@ class Watch:
 
         folder = self.opened.folder
         seen = self._with_own(self.opened.observe(), folder.state)
-        head, missed = (
-            self.opened.history.head_name(),
-            unaligned(folder.setup, self.opened.edge.memory, seen, folder.state),
-        )
-        found = compare(folder.setup, folder.committed(), folder.state, seen, head, unaligned=missed)
+        head, committed, memory = self.opened.history.head_name(), folder.committed(), self.opened.edge.memory
+        missed = unaligned(folder.setup, memory, seen, folder.state)
+        unstated = looked_up(folder.setup, memory, seen, committed, folder.state)
+        found = compare(folder.setup, committed, folder.state, seen, head, unaligned=missed, unstated=unstated)
         lacking = tuple(one for one in seen.problems if one.code in LACKING)
         return replace(found, cut_short=told_first(self.opened, seen), lacking=lacking)
 

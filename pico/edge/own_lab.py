@@ -70,6 +70,8 @@ def _require_sealed(place: BenchPlace, path: Path, data: bytes | None) -> None:
         return
     if data is None and not path.with_name("journal.sqlite").exists():
         return
+    if data is not None:
+        OWN_LAB.made(path, data, _own_lab)  # damaged, which is not what a commit brings
     how = "is gone" if data is None else "is not what the bench wrote there: a commit may have brought it"
     raise PicoError(error(CODE, f"{path} {how}, so nobody knows what this bench is", hint=_HINT))
 

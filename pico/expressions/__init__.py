@@ -140,14 +140,14 @@ class Expression:
             spoken = {name: value for name, value in values.items() if name.partition(".")[0] in words}
             found = self._compiled.eval(data={name: doubles(value) for name, value in spoken.items()})
         except RuntimeError as exc:
-            raise ExpressionError(wording.failure(str(exc)), 0, len(self.text)) from exc
+            raise ExpressionError(wording.failure(str(exc), self.text), 0, len(self.text)) from exc
         value = found.plain_value() if "error" not in found.type().name().lower() else None
         if value is None or not isinstance(value, _PYTHON[self.result]):
             said = str(found.value())
             unknown = _UNKNOWN.search(said)
             if unknown:
                 raise UnknownValue(unknown[1])
-            wrong = wording.failure(said) if value is None else f"it is not {wording.kind(self.result)}"
+            wrong = wording.failure(said, self.text) if value is None else f"it is not {wording.kind(self.result)}"
             raise ExpressionError(wrong, 0, len(self.text))
         return value
 

@@ -55,21 +55,30 @@ def mistake(
     return _about(text, start, found[3].strip(), known)
 
 
-def failure(said: str) -> str:
-    """Return in words why an evaluation gave nothing."""
+def failure(said: str, text: str = "") -> str:
+    """Return in words why an evaluation of the expression `text` gave nothing."""
     if "Iteration budget" in said:
         return "it looks at too many things: more than 10,000 steps"
     missing = re.search(r'Key not found in map : "([^"]*)"', said)
     if missing:
         return f"there is no `{missing[1]}` in it"
     if beyond := re.search(r"index=(-?\d+) size=(\d+)", said):
-        last = f", [0] to [{int(beyond[2]) - 1}]" if int(beyond[2]) else ""
-        return f"there is no [{beyond[1]}]: the list has {beyond[2]} items{last}"
+        return _beyond(int(beyond[1]), int(beyond[2]), text)
     if "Index error: expected integer" in said:
         return "an item of a list has a whole number: `l[int(x)]`, `l[size(l) - 1]`"
     if "No matching overloads" in said or "matching overload" in said:
         return f"it compares what does not go together: {said.split(':', 1)[-1].strip()[:120]}"
     return re.sub(r"^[A-Z_]+: ", "", said.partition(" [")[0])[:200]
+
+
+def _beyond(index: int, size: int, text: str) -> str:
+    """Return in words that a list of `size` items has none at `index`, with its name if only one list is in `text`."""
+    values = f"{size} value{'' if size == 1 else 's'}"
+    lists = {*re.findall(r"([A-Za-z_][\w.]*)\[", text)}
+    name = lists.pop() if len(lists) == 1 else ""
+    if not name:
+        return f"a list has {values}, so its item [{index}] does not exist"
+    return f"`{name}` has {values}, so `{name}[{index}]` does not exist"
 
 
 def _place(source: str, found: re.Match[str]) -> int:
@@ -88,7 +97,8 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
             return f"there is no function `{name}` that takes this many arguments", begin, end, called
         return f"there is no function `{name}`", begin, end, _meant(name, known)
     if path and ("undeclared reference" in said or "operand of a select" in said):
-        return f"nothing is called `{path[0]}`{_near(path[0], known)}", path.start(), path.end(), ""
+        said, hint = _unknown(path[0], known)
+        return said, path.start(), path.end(), hint
     if overload := _OVERLOAD.search(said):
         operator = WRITTEN.get(overload[1], overload[1])
         return _misfit(operator, overload[2]), start, start + 1, _HINTS.get(operator) or known.get(operator, "")
@@ -99,6 +109,14 @@ def _about(text: str, start: int, said: str, known: Mapping[str, str]) -> tuple[
     words = re.sub(r"token recognition error at: '(.*)'.*", r"an open quote or an unknown sign, `\1`", words)
     hint = _meant(path[0], ()) if path else "`x * x`" if text[start - 1 : start + 1] == "**" else ""
     return f"it can't be read here: {re.sub(r' expecting .*', '', words)}", start, start + 1, hint
+
+
+def _unknown(name: str, known: Collection[str]) -> tuple[str, str]:
+    """Return that nothing has this name, with a hint; of a field of what is a value that it has none."""
+    whole, _, field = name.rpartition(".")
+    if whole in known and not any(other.startswith(f"{whole}.") for other in known):
+        return f"`{whole}` is the value itself and has no `.{field}`", f"write `{whole}`"
+    return f"nothing is called `{name}`{_near(name, known)}", ""
 
 
 def _near(name: str, known: Collection[str]) -> str:

@@ -8,6 +8,7 @@ import stat
 from collections.abc import Container, Iterator, Mapping
 from contextlib import suppress
 from pathlib import Path
+from shlex import quote
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.manifest.file_names import (
@@ -38,7 +39,14 @@ _NO_TEXT = {
     b"\0GITCRYPT\0": ("encrypted by git-crypt", "decrypt it: `git-crypt unlock`"),
 }
 """How files begin that hold no text to read, what they are, and what to do."""
-_BEGIN = "begin it with `apiVersion: pico/v1`, or delete it"
+
+
+def begin_or_restore(path: str) -> str:
+    """Return what to do about a file at `path`, as it is shown, in which nothing is written."""
+    begin = "begin it with `apiVersion: pico/v1`, or delete it"
+    if ":" in path or path.startswith("the bench's own "):  # of a revision, or of the Lab that a bench keeps
+        return begin
+    return f"if a commit has it, `git restore {quote(path)}` brings it back; else {begin}"
 
 
 def shown_path(path: Path) -> str:
@@ -170,7 +178,7 @@ def decode(path: str, data: bytes) -> tuple[Source | None, list[Diagnostic]]:
         what = "binary data" if b"\0" in data else f"the byte 0x{data[exc.start]:02x} is not UTF-8"
         return None, [*found, error("encoding", what, hint="save it as UTF-8 text", source=source.range(index))]
     if not source.content.strip():
-        return None, [*found, about(path, "empty", "the file is empty", _BEGIN)]
+        return None, [*found, about(path, "empty", "the file is empty", begin_or_restore(path))]
     odd = _NOT_TEXT.search(source.content)
     if odd:
         what = "binary data" if odd[0] == "\0" else f"the control character U+{ord(odd[0]):04X}"

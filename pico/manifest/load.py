@@ -15,7 +15,7 @@ from pico.manifest.checks.labs import check_lab, check_setup
 from pico.manifest.checks.own_parameters import check_own_parameters
 from pico.manifest.checks.required_version import require_satisfied, unsatisfied
 from pico.manifest.file_names import TOLD, misnamed_manifest, named_as_manifest
-from pico.manifest.files import decode_all, read_folder, shown_path, shut
+from pico.manifest.files import begin_or_restore, decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
 from pico.manifest.state import read_states
 from pico.manifest.text.kinds import headless, kind_of
@@ -172,7 +172,8 @@ def _load(
         state, wrong = read_states(documents["LabState"], view) if view else (None, [])
         found.extend(wrong)
     elif not any(d.severity == "error" for d in found):
-        hint = "add a file with `kind: LabState` and `components:`"
+        hint = "if one was deleted, `git status` names it and `git restore FILE` brings it back; else add a file with "
+        hint += "`kind: LabState` and `components:`"
         found.append(error("no-state", "the lab has no LabState", hint=hint, source=_somewhere(documents, root)))
     kept = {kind: tuple(of_kind) for kind, of_kind in documents.items()}
     return Manifests(setup, state, tuple(sorted(weighed(found, setup, state), key=_order)), kept)
@@ -190,7 +191,7 @@ def _documents(files: Mapping[str, bytes], found: list[Diagnostic]) -> tuple[dic
             wrong = [replace(d, severity="warning") for d in wrong]
         found.extend(wrong)
         if not documents and not wrong:
-            hint = "begin it with `apiVersion: pico/v1`, or delete it"
+            hint = begin_or_restore(source.path)
             found.append(error("empty", f"{source.path}: nothing but comments", hint=hint, source=source.range(0)))
         for document in documents:
             kind, wrong = kind_of(document)

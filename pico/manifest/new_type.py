@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from itertools import count
 from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.disk import write_whole
 from pico.manifest.catalog import catalog_names, read_type, unknown_type
 from pico.manifest.files import decode, shown_path
-from pico.manifest.load import find_lab, own_types
+from pico.manifest.load import find_lab, load_folder, own_types
 from pico.manifest.text.places import find
 from pico.manifest.text.tree import Document, Node, parse
 from pico.model.catalog import value_of
@@ -40,6 +41,25 @@ def new_type(start: Path, name: str, base: str, given: Mapping[str, str]) -> Pat
     _require_valid(text, shown_path(path))
     write_whole(path, text.encode(), folders=True)
     return path
+
+
+def line_of_part(start: Path, name: str) -> str:
+    """Return a line of `inventory` with a part of the lab's own type `name`: with a free marker and slot if an arm
+    moves it, else bolted in the middle of the table."""
+    setup = load_folder(find_lab(start)).setup
+    if setup is None:
+        return f"{name}_1: {{type: {name}, pose: {{x: 0, y: 0, yaw: 0}}}}"
+    lab, kind = setup.lab, setup.catalog.get(name)
+    part = next(f"{name}_{n}" for n in count(1) if f"{name}_{n}" not in lab.inventory)
+    free = lab.slots.keys() - {one.home for one in lab.inventory.values()}
+    slots = sorted(free, key=lambda slot: (not slot.startswith("storage/"), slot))  # others may lie in a beam
+    moved = kind and kind.seating != "bolted" and kind.pose.mover == "arm" and kind.geometry.grasp is not None
+    if not (moved and slots and lab.robots):
+        x, y = (round(side / 2) for side in lab.table.size)
+        return f"{part}: {{type: {name}, pose: {{x: {x}, y: {y}, yaw: 0}}}}"
+    taken = {one.marker for one in lab.inventory.values()}
+    marker = next(n for n in count(1) if n not in taken)
+    return f"{part}: {{type: {name}, marker: {marker}, home: {slots[0]}}}"
 
 
 class _Named:

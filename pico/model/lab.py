@@ -259,7 +259,7 @@ class Lab:
     table: Table
     regions: Mapping[str, Region] = field(default_factory=dict)
     slots: Mapping[str, Slot] = field(default_factory=dict)
-    robots: Mapping[str, Robot]
+    robots: Mapping[str, Robot] = field(default_factory=dict)
     cameras: Mapping[str, Camera] = field(default_factory=dict)
     datums: Mapping[str, Datum] = field(default_factory=dict)
     keep_out: Mapping[str, KeepOut] = field(default_factory=dict)

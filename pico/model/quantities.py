@@ -123,6 +123,8 @@ def convert(value: Any, unit: str) -> Any:
         return number * _FACTORS[given][1] / _FACTORS[unit][1]
     if re.fullmatch(r",\d+", given):
         raise QuantityError(f"`{value}` has a comma; decimals are written with a point, `{value.replace(',', '.')}`")
+    if "=" in given:
+        raise QuantityError(f"`{value[:40]}` is a value and a second setting; set one component at a time")
     if len(given) > 40 or not _UNIT.fullmatch(given):
         raise QuantityError(f"`{given[:40]}` is not a unit; expected {example(unit)}")
     have, want = dimension(given), dimension(unit)

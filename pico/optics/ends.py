@@ -21,7 +21,8 @@ def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tup
         for axis in beams(setup, poses, values)
         if values.get(axis.source, {}).get("emission") is True and axis.source not in but
     )
-    return tuple(found for axis in on for end in axis.meetings for found in stray(setup, axis.source, end))
+    found = (one for axis in on for end in axis.meetings for one in stray(setup, axis.source, end))
+    return tuple(dict.fromkeys(found))  # two arms of an interferometer send back to one place
 
 
 def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
@@ -31,8 +32,11 @@ def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
     if end.event == "left":
         yield warning("beam", f"the beam of {laser} leaves the table at ({x}, {y})", hint=hint, address=laser)
     elif end.component == laser:
+        if setup.ends_beams(laser):
+            return
         text = f"the beam of {laser} comes back to it at ({x}, {y})"
-        yield warning("beam", text, hint="turn what sends it back, or end it in a beam block", address=laser)
+        hint = f"turn what sends it back, or declare that its head takes it: `ends_beams: true` for {laser}"
+        yield warning("beam", text, hint=hint, address=laser)
     elif end.event == "blocked" and setup.type_of(end.component).optics.element != "block":
         text = f"the beam of {laser} ends on the housing of {end.component} at ({x}, {y}), beside its aperture"
         yield warning("beam", text, hint=f"move {end.component} into the beam or out of it", address=end.component)

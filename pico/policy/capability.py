@@ -62,5 +62,6 @@ def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:
         by = {"dx": goal.x - start.x, "dy": goal.y - start.y, "dyaw": angle_between(start.yaw, goal.yaw)}
         words = " ".join(f"--{key} {value:.10g}" for key, value in by.items() if round(value, 6))
         by_hand = f"the hand of the simulated bench is `pico sim nudge {op.component} {words}`"
-    hint = f"{by_hand}, then plan again; `--exclude {op.component}` does the rest without it"
+    rest = "" if op.reason.kind == "asked" else f"; `--exclude {op.component}` does the rest without it"
+    hint = f"{by_hand}, then plan again{rest}" if rest else by_hand
     return error("operator", f"{op.component} needs a person: {what}", hint=hint, address=op.component)

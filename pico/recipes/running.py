@@ -147,8 +147,10 @@ class _Run:
         self.reached |= bool(entered.path) and entered.path == self.watching.until
         self.watching.entered(entered)
 
-    def _failing(self) -> None:
-        self.failed = self.failed or self.at
+    def _failing(self, begun: str) -> None:
+        """Remember which step failed: the one begun last, which is not entered before its terms have values."""
+        inside = self.at == begun or self.at.startswith((f"{begun}.", f"{begun}["))
+        self.failed = self.failed or (self.at if inside else begun)
 
     def _to_the_end(self, steps: Any) -> dict[str, Any]:
         send: Callable[[], Ask] = lambda: next(steps)  # noqa: E731

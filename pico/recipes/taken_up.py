@@ -14,7 +14,8 @@ if TYPE_CHECKING:
     from pico.model.diff import Change
     from pico.model.measurement import Measurement
     from pico.model.plan import Plan
-    from pico.runs.journal import JournalRecord
+    from pico.runs.journal import JournalRecord, RunRecord
+    from pico.runs.memory import Memory
 
 
 def checked_out(bench: Bench) -> Checked:
@@ -30,14 +31,40 @@ def otherwise(bench: Bench, log: Log) -> tuple[Diagnostic, ...]:
     last = next(reversed(log.steps.values()), None)
     here = checked_out(bench)
     moves_head = last is not None and last.told is None and last.kind in ("commit", "checkout", "branch")
-    if last is not None and last.at not in (None, here) and not moves_head:
+    if last is not None and last.at and not moves_head and not _same_state(bench, last.at, here):
         then, now = (f"{branch or 'no branch'} at {(commit or 'no commit')[:7]}" for branch, commit in (last.at, here))
-        hint = f"`git checkout {last.at[0] or last.at[1]}`" if last.at and any(last.at) else ""
-        found.append(error("bench-changed", f"{then} was checked out, and now it is {now}", hint=hint))
+        hint = _way_back(bench, last.at) if last.at else ""
+        found.append(error("checkout-changed", f"{then} was checked out, and now it is {now}", hint=hint))
     runs = [run for step in log.steps.values() for run in step.runs]
     changes, others = _changed_since(bench, runs[-1]) if runs else ((), ())
     by = f"since {log.about.name} was cut short, by {', '.join(others)}"
     return (*found, *(error("bench-changed", f"{c.component}.{c.tunable}: {c.text}", detail=by) for c in changes))
+
+
+def _same_state(bench: Bench, then: Checked, now: Checked) -> bool:
+    """Return whether two checkouts are of one branch and hold the same state: a commit of notes or code changes nothing
+    that a recipe measures or commits."""
+    if then == now or then[0] != now[0] or not (then[0] and then[1] and now[1]):
+        return then == now
+    try:
+        return bench.folder.state_at(then[1]) == bench.folder.state_at(now[1])
+    except PicoError:  # one of them can't be read
+        return False
+
+
+def _way_back(bench: Bench, then: Checked) -> str:
+    """Return the commands that check out again what was checked out."""
+    branch, commit = then
+    if branch is None or commit is None:
+        return f"`git checkout {branch or commit}`" if branch or commit else ""
+    try:
+        moved = bench.folder.history().resolve(branch).id != commit
+    except PicoError:
+        return f"`git checkout -b {branch} {commit[:7]}`: the branch is gone"
+    if not moved or checked_out(bench)[0] != branch:
+        return f"`git checkout {branch}`"
+    hint = f"`git branch later-{branch}` names the commits made since, then `git reset --keep {commit[:7]}`"
+    return f"{hint}; or `pico run` begins anew"
 
 
 def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[str, ...]]:
@@ -45,7 +72,7 @@ def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[st
     order. Apart from that is what the run itself was at when it was cut short, and what only emptied hands. Raises
     PicoError where the journal can't be read."""
     from pico.bench.recovery import state_before
-    from pico.bench.undo.choice import begun_by, document_of
+    from pico.bench.undo.choice import begun_by
     from pico.model.comparing.drift import drift_of
     from pico.model.observation import live_state
 
@@ -55,7 +82,7 @@ def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[st
     if memory is None or own + 1 >= len(runs):
         return (), ()
     moving = memory.moving()
-    others = [r for r in runs[own + 1 :] if r.run in moving and document_of(memory, r).target.cause != "recover"]
+    others = [r for r in runs[own + 1 :] if r.run in moving and not _recovers(memory, r)]
     parts = {component for other in others for component, _ in begun_by(memory, other)}
     if not parts:
         return (), ()
@@ -69,6 +96,13 @@ def _changed_since(bench: Bench, run: str) -> tuple[tuple[Change, ...], tuple[st
         c for c in off if c.component in then and (c.component, c.tunable) not in under_way and not c.tolerated
     )
     return found, tuple(r.run for r in others) if found else ()
+
+
+def _recovers(memory: Memory, run: RunRecord) -> bool:
+    from pico.bench.undo.choice import document_if_any
+
+    plan = document_if_any(memory, run)
+    return plan is not None and plan.target.cause == "recover"
 
 
 def settle(bench: Bench, begun: Sequence[str]) -> None:

@@ -30,6 +30,12 @@ class Term:
         return not self.parts
 
     @property
+    def written(self) -> str:
+        """The expression alone if it is nothing else, as an `assert` has it; otherwise `text`."""
+        one = self.parts[0] if len(self.parts) == 1 else ""
+        return self.text if isinstance(one, str) else one.text
+
+    @property
     def text(self) -> str:
         """It as it was written, about."""
         if self.known:

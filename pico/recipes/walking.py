@@ -75,11 +75,11 @@ class Entered:
 
 def walk(
     recipe: Recipe, arguments: Mapping[str, Any], enter: Callable[[Entered], None] = lambda _: None, *,
-    ahead: Callable[[Step], None] | None = None, failing: Callable[[], None] = lambda: None,
+    ahead: Callable[[Step], None] | None = None, failing: Callable[[str], None] = lambda _: None,
 ) -> Walk:  # fmt: skip
     """Walk a recipe with all its parameters given; return what it `returns`.
 
-    `failing`: called if steps failed, before those of `finally`.
+    `failing`: called with the path of the step that failed, before those of `finally`.
 
     `ahead`: nothing is done yet, and what is measured is not known: what depends on it is left out, what that would
     change is not known from there on, such steps are entered as not `known`, and `ahead` hears of each act and scan
@@ -111,9 +111,11 @@ class _Names:
 
 class _Walker:
     def __init__(
-        self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None, failing: Callable[[], None]
+        self, enter: Callable[[Entered], None], ahead: Callable[[Step], None] | None, failing: Callable[[str], None]
     ) -> None:
         self.enter, self.ahead, self.failing, self.turns = enter, ahead, failing, 0
+        self.begun = ""
+        """The path of the step that was begun last, of which nothing may have been evaluated yet."""
         self.measured: dict[str, float] = {}
         self.looked: dict[str, Any] = {}
         """Names of the bench with their values as the step asked for them that is begun."""
@@ -134,7 +136,7 @@ class _Walker:
         except GeneratorExit:
             raise
         except BaseException as failed:
-            self.failing()
+            self.failing(self.begun)
             try:
                 yield from self.block(recipe.finally_, _Names(dict(arguments)), f"{at}finally.", depth)
             except PicoError as again:
@@ -150,7 +152,7 @@ class _Walker:
 
     def block(self, steps: tuple[Step, ...], names: _Names, at: str, depth: int) -> Walk:
         for step in steps:
-            path = at + step.at.rpartition(".")[2]
+            path = self.begun = at + step.at.rpartition(".")[2]
             self.looked = {}
             if isinstance(step, Act):
                 yield from self.act(step, names, path, depth)
@@ -269,7 +271,7 @@ class _Walker:
             self.count(step)
             self.enter(Entered(path, step, depth, dict(self.spoken), (n + 1, step.most)))
             yield from self.block(step.steps, _Names({}, names), f"{path}[{n + 1}].", depth + 1)
-        text = f"step {path} went round {step.most} times, and `{step.that.text if step.that else ''}` still holds"
+        text = f"step {path} went round {step.most} times, and `{step.that.written if step.that else ''}` still holds"
         raise PicoError(
             _wrong("bound", text, step.source, "raise `most`, or mend what it waits for"), ExitCode.EXPECTATION
         )
@@ -296,7 +298,7 @@ class _Walker:
         if step.message is not None:
             said = str((yield from self.value(step.message, names, f"{path}.message", step.source)))
         assert step.that is not None
-        text = said or f"`{step.that.text}` does not hold"
+        text = said or f"`{step.that.written}` does not hold"
         raise PicoError(_wrong("assert", text, step.source, f"step {path}"), ExitCode.EXPECTATION)
 
     def left_out(self, step: Step, names: _Names, path: str, depth: int) -> None:
@@ -352,9 +354,11 @@ class _Walker:
         except ExpressionError as exc:
             if self.ahead and isinstance(exc, UnknownValue):
                 return UNKNOWN
-            raise PicoError(_wrong("expression", f"`{term.text}` has no value: {exc}", source, f"step {path}")) from exc
+            raise PicoError(
+                _wrong("expression", f"`{term.written}` has no value: {exc}", source, f"step {path}")
+            ) from exc
         if isinstance(found, list | str) and len(found) > MOST_ITEMS:
-            text = f"`{term.text}` has {len(found)} items; a value has at most {MOST_ITEMS}"
+            text = f"`{term.written}` has {len(found)} items; a value has at most {MOST_ITEMS}"
             raise PicoError(_wrong("bound", text, source, "it is taken for one that runs away"))
         return found
 

@@ -314,10 +314,10 @@ def _marks(count: int) -> str:
     return ", ".join("?" * count)
 
 
-def replace_journal(path: Path, new: Path) -> Path:
-    """Put a journal in the place of the damaged one, which is set aside under a name that is free; return that name.
-    Raises PicoError."""
-    aside = aside_of(path)
+def replace_journal(path: Path, new: Path) -> Path | None:
+    """Put a journal in the place of the damaged one, which is set aside under a name that is free; return that name, or
+    None if the damaged one was gone. Raises PicoError."""
+    aside, gone = aside_of(path), not os.path.lexists(path)
     with writing(path):
         if other_than_file(path):
             path.rename(aside)
@@ -328,4 +328,4 @@ def replace_journal(path: Path, new: Path) -> Path:
                 one.rename(aside.with_name(aside.name + suffix))
         remove_file(CHANGE_COUNT.path(path.parent))  # of the damaged one
         new.replace(path)
-    return aside
+    return None if gone else aside

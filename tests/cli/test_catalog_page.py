@@ -9,7 +9,7 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
-from commanding import Pico
+from commanding import Pico, edit
 
 from pico.drawing.portrait import portrait
 from pico.manifest.catalog import catalog_names, load_catalog
@@ -39,4 +39,10 @@ def test_a_type_is_begun_from_the_command_line(shel: Path, pico: Pico) -> None:
     answer = pico("catalog", "new", "own_lens", "--from", "plano_convex", "--set", "focal_length=80")
     assert answer.code == 0 and "Wrote types/own_lens.yaml" in answer.out
     assert "own_lens" in pico("catalog").out and pico("validate").code == 0
+    line = answer.out.splitlines()[-1]
+    edit(shel / "lab.yaml", "inventory:\n", f"inventory:\n{line}\n")
+    said = pico("validate").err  # the only free slot of this lab lies in the beam
+    assert set(re.findall(r"error\[(.*?)]", said)) <= {"beam-audit"}, said
+    bolted = pico("catalog", "new", "own_laser", "--from", "hene_laser")
+    assert bolted.code == 0 and "pose: {x: " in bolted.out and "marker" not in bolted.out
     assert "there is a type `own_lens` already" in pico("catalog", "new", "own_lens", "--from", "iris").err

@@ -141,3 +141,17 @@ def test_a_simulated_table_that_is_gone_is_never_taken_for_one_with_every_part_a
     assert (shel / "state" / "table.yaml").read_text() == before
     assert pico("sim", "reset").code == 0
     assert pico("plan", "--detailed-exitcode").code == 2
+
+
+def test_an_emptied_file_is_restored_before_anything_else(shel: Path, pico: Pico) -> None:
+    state = next(path for path in sorted((shel / "state").glob("*.yaml")))
+    name = str(state.relative_to(shel))
+    for path, text in ((name, ""), ("lab.yaml", ""), (name, "# nothing but comments\n")):
+        whole = (shel / path).read_text()
+        (shel / path).write_text(text)
+        said = " ".join(pico("status").err.split())
+        assert f"if a commit has it, `git restore {path}` brings it back" in said, said
+        (shel / path).write_text(whole)
+    for one in (shel / "state").glob("*.yaml"):
+        one.unlink()
+    assert "`git restore FILE` brings it back" in " ".join(pico("status").err.split())

@@ -127,9 +127,12 @@ def test_the_lamp_is_off_while_a_beam_is_measured_and_on_while_an_arm_works(shel
 def test_light_that_no_exposure_shows_is_told(shel: Path, pico: Pico) -> None:
     for words in ("emission=true", "shutter=open"):
         assert pico("set", "laser", words, "--yes").code == 0
+    assert pico("set", "cam", "exposure=1", "--yes").code == 0
     answer = pico("do", "cam", "auto_range", "--yes")  # nothing but hwp stands in the beam
     assert answer.code == 1 and "cam is saturated even at 0.02 ms, its shortest exposure" in answer.err
-    assert "weaken the beam" in answer.err
+    assert "weaken the beam" in answer.err and "the exposure stays there, it was" in answer.err
+    bright = pico("measure", "cam.centroid")
+    assert "auto_range" not in bright.out + bright.err and "weaken the beam" in bright.out + bright.err, bright
 
 
 def test_a_photodiode_that_can_tell_no_more_has_no_value(shel: Path, pico: Pico) -> None:

@@ -3,6 +3,7 @@ works, and it never keeps light on."""
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -182,3 +183,43 @@ def test_a_table_of_emulated_devices_that_begins_anew_is_reported(lit: Path, pic
     assert str(WORLD.path(place.own)) in pico("doctor").err
     WORLD.path(place.own).write_text("{}")
     assert lost_warning(place) == ()
+
+
+def test_a_file_in_the_place_of_the_folder_of_all_is_named_with_what_moves_it_away(
+    shel: Path, pico: Pico, tmp_path: Path
+) -> None:
+    subprocess.run(["rm", "-rf", ".pico"], check=True)
+    Path(".pico").write_text("mine")
+    for command in ("status", "doctor"):
+        said = pico(command).err
+        assert f"`mv {shel}/.pico {shel}/.pico.damaged`" in said and "ls -ld" not in said, said
+
+
+def test_an_emptied_lab_of_a_bench_is_called_empty_and_once(lit: Path, pico: Pico) -> None:
+    (lit / ".pico/benches/sim/lab.json").write_text("")
+    said = pico("status").err
+    assert "the file is empty" in said and "commit may" not in said and "bench update" in said, said
+    assert pico("doctor").err.count("error[bench-lab]") == 1
+
+
+def test_a_full_disk_leaves_no_half_of_the_command_that_was_approved(
+    lit: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from pico.bench.undo import intention
+
+    def full(_: int) -> None:
+        raise OSError(errno.ENOSPC, "no space left on device")
+
+    place = BenchPlace(lit, "sim")
+    monkeypatch.setattr(intention.os, "fsync", full)
+    intention.keep(place, "apply")()
+    assert not (place.folder / "called.json").exists()
+
+
+def test_doctor_names_a_disk_that_is_full(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> None:
+    from pico import disk
+
+    assert "disk-full" not in pico("doctor").err
+    monkeypatch.setattr(disk, "LEAST", 1 << 62)
+    full = pico("doctor")
+    assert full.code == 1 and "error[disk-full]" in full.err and "make room there" in full.err, full.err

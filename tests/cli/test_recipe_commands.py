@@ -354,3 +354,48 @@ def test_what_a_condition_and_a_value_come_to_is_printed_and_what_depends_on_a_m
     named = done.out.partition("has what it did, in 3 runs one after another: ")[2].replace("\n", " ").split(", ")
     assert len(named) == 3
     assert all(pico("runs", "show", run.strip()).code == 0 for run in named)
+
+
+def _git(*words: str) -> None:
+    subprocess.run(["git", *words], check=True, capture_output=True)
+
+
+def test_a_commit_that_moves_no_part_does_not_keep_a_recipe_from_being_taken_up(turning: Path, pico: Pico) -> None:
+    _git("add", "-A")
+    _git("commit", "-qm", "recipe")
+    assert pico("run", "turning", "--until", "1[2].1", "--yes").code == 0
+    _git("commit", "-q", "--allow-empty", "-m", "x")
+    (turning / "NOTES.md").write_text("A note.\n")
+    _git("add", "NOTES.md")
+    _git("commit", "-qm", "a note")
+    resumed = pico("run", "--resume", "--yes")
+    assert resumed.code == 0, resumed.err
+
+
+def test_the_way_back_to_what_was_checked_out_works_as_it_is_written(turning: Path, pico: Pico) -> None:
+    _git("add", "-A")
+    _git("commit", "-qm", "recipe")
+    _git("checkout", "-q", "-B", "trial")
+    assert pico("run", "turning", "--until", "1[2].1", "--yes").code == 0
+    state = next(path for path in (turning / "state").glob("*.yaml") if "exposure:" in path.read_text())
+    state.write_text(re.sub(r"exposure: [0-9.]+", "exposure: 3", state.read_text()))
+    _git("commit", "-qam", "another exposure")
+    _git("checkout", "-q", "HEAD~1")
+    for _ in range(2):  # back to the branch, then to the commit
+        refused = pico("run", "--resume", "--yes")
+        assert refused.code == 4 and "the bench is not as" not in refused.err, refused.err
+        hint = " ".join(refused.err.split()).partition("= help:")[2].partition("; or")[0]
+        for command in re.findall(r"`git ([^`]*)`", hint):
+            _git(*command.split())
+    assert pico("run", "--resume", "--yes").code == 0
+
+
+def test_a_step_whose_values_fail_is_the_one_that_is_named(turning: Path, pico: Pico) -> None:
+    steps = (
+        'steps:\n  - {measure: p1.angle, as: p}\n  - let: {l: "[p]"}\n  - set: {p1.angle: 8}\n  - assert: l[0] < l[1]\n'
+    )
+    head = "apiVersion: pico/v1\nkind: Recipe\nmetadata: {name: short, title: Too short}\n"
+    (turning / "recipes/short.yaml").write_text(head + steps)
+    failed = pico("run", "short", "--yes")
+    assert failed.code == 1 and "failed at step 4," in failed.out, failed.out
+    assert "`l` has 1 value, so `l[1]` does not exist" in failed.err and "${" not in failed.err, failed.err

@@ -7,7 +7,7 @@ import json
 from pathlib import Path
 
 import pytest
-from commanding import Pico, Typed
+from commanding import Pico, Typed, edit
 
 
 def test_a_tunable_is_set_and_read(shel: Path, pico: Pico) -> None:
@@ -236,3 +236,26 @@ def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pic
     assert "storage/b2" in pico("status").out
     assert pico("sim", "remove", "p2").code == pico("sim", "nudge", "p2").code == 0
     assert "storage/b2" in pico("status").out
+
+
+def test_advice_about_a_part_that_only_a_person_moves_has_no_option_that_the_command_lacks(
+    shel: Path, pico: Pico
+) -> None:
+    edit(shel / "lab.yaml", "  p1:\n", "  p1:\n    seating: bolted\n")
+    refused = pico("move", "p1", "x+=5", "--yes")
+    assert refused.code != 0 and "needs a person" in refused.err and "--exclude" not in refused.err, refused.err
+
+
+def test_a_lab_without_an_arm_is_valid_and_says_that_it_has_none(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert pico("init", "bare").code == 0
+    monkeypatch.chdir(shel / "bare")
+    lab = Path("lab.yaml").read_text()
+    head, _, rest = lab.partition("robots:\n")
+    Path("lab.yaml").write_text(head + rest[rest.index("policy:") :])
+    assert pico("validate").code == 0, pico("validate").err
+    edit(Path("state/table.yaml"), "    slot: storage/a2 ", "    pose: {x: 480, y: 420, yaw: 0} ")
+    refused = pico("plan")
+    said = refused.err + refused.out
+    assert "error[no-arm]: lens" in said and "the lab has no arm" in said and "gripper" not in said, said

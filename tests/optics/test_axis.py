@@ -270,3 +270,14 @@ def test_a_mirror_tips_in_whatever_unit_it_is_declared(unit: str, value: float) 
     tunables = {**kind.tunables, "tip": replace(kind.tunables["tip"], unit=unit)}
     normal = optic_of(replace(kind, tunables=tunables), "m", Pose(0, 0), {"tip": value}).normal
     assert normal[:2] == pytest.approx((-math.cos(0.01), -math.sin(0.01)))
+
+
+def test_a_head_that_is_declared_to_end_beams_is_no_bad_end_and_two_arms_are_one_warning(setup: Setup) -> None:
+    at = {"source0": Pose(100, 600), "beam_splitter0": Pose(600, 600), "mirror0": Pose(600, 800, 90),
+          "mirror1": Pose(850, 600, 0), "detector0": Pose(600, 200, -90)}  # fmt: skip
+    parts = {n: ComponentState(pose=p, values={"emission": True} if n == "source0" else {}) for n, p in at.items()}
+    state, own = LabState(lab="light", components=parts), {name: setup.lab.inventory[name] for name in at}
+    back = [d.summary for d in stray_beams(replace(setup, lab=replace(setup.lab, inventory=own)), state)]
+    assert back == ["the beam of source0 comes back to it at (160, 600)"]
+    own["source0"] = replace(own["source0"], ends_beams=True)
+    assert stray_beams(replace(setup, lab=replace(setup.lab, inventory=own)), state) == ()

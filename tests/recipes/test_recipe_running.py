@@ -343,7 +343,7 @@ def test_what_is_checked_out_otherwise_is_told_and_what_git_has_of_it_is_the_rec
         assert recipes.changed_since(log) == ()
         bench.history.checkout("e1")
         (said, *_) = recipes.changed_since(log)
-        assert said.code == "bench-changed" and "mine at" in said.summary and said.hint == "`git checkout mine`"
+        assert said.code == "checkout-changed" and "mine at" in said.summary and said.hint == "`git checkout mine`"
 
 
 @pytest.mark.parametrize("step", ["3", "4"])

@@ -22,8 +22,8 @@ NAMED = 5
 
 @dataclass(frozen=True)
 class Salvaged:
-    """What becomes of the journal of a bench: `damaged` says whether anything is; `aside` is where the old one now
-    lies, None if nothing was changed."""
+    """What becomes of the journal of a bench: `damaged` says whether anything is; `written`, whether the new one is
+    in place; `aside` is where the old one now lies, None if it was gone or nothing was changed."""
 
     bench: str
     path: Path
@@ -31,6 +31,7 @@ class Salvaged:
     made: Salvage
     broken: str = ""
     aside: Path | None = None
+    written: bool = False
 
 
 def examine_journal(root: Path, path: Path) -> Iterator[Diagnostic]:
@@ -88,7 +89,7 @@ def salvage_journal(place: BenchPlace, *, write: bool) -> Salvaged:
         aside = replace_journal(path, new)
         if marked_run(path) in {one.run for one in found.made.lost}:
             RUN_MARK.path(place.folder).unlink(missing_ok=True)
-        return Salvaged(found.bench, path, True, found.made, found.broken, aside)
+        return Salvaged(found.bench, path, True, found.made, found.broken, aside, written=True)
 
 
 def _salvaged(place: BenchPlace, path: Path, found: Examined) -> Salvaged:

@@ -130,9 +130,11 @@ def _present(setup: Setup, touched: Iterable[tuple[str, str]]) -> set[tuple[str,
 
 def called(memory: Memory, run: RunRecord) -> str:
     """Return a run as a person knows it: its id, what it was for, when it began, and whose it is."""
-    plan = document_of(memory, run)
-    what = plan.target.name
-    if plan.target.cause in ("undo", "redo"):
+    plan = document_if_any(memory, run)
+    what = plan.target.name if plan else run.holder
+    if plan is None:
+        pass
+    elif plan.target.cause in ("undo", "redo"):
         what = f"{plan.target.cause} of {plan.target.of}"
     elif plan.asked or run.holder.startswith("pico optimize"):
         what = next((f"{op.primitive} {op.address}" for op in plan.operations if op.reason.kind == "asked"), what)
@@ -159,11 +161,20 @@ def begun_by(memory: Memory, run: RunRecord, *, ended: bool = True) -> Iterator[
 
 
 def document_of(memory: Memory, run: RunRecord) -> Plan:
-    """Return the plan that a run began with; raises PicoError where it was not kept."""
+    """Return the plan that a run began with; raises PicoError if the journal has none: the run was salvaged from a
+    commit."""
+    plan = document_if_any(memory, run)
+    if plan is None:
+        text = f"the journal has no plan of the run {run.run}, which was salvaged from a commit"
+        hint = "`pico plan` shows what differs now; `pico checkout` of a commit brings its state back"
+        raise PicoError(error("no-plan", text, hint=hint))
+    return plan
+
+
+def document_if_any(memory: Memory, run: RunRecord) -> Plan | None:
+    """Return the plan that a run began with; None if the journal has none, as of a run that was salvaged."""
     text = memory.document(run.run)
-    if text is None:
-        raise PicoError(error("no-plan", f"the journal did not keep the plan of the run {run.run}", hint="`pico plan`"))
-    return plan_from_json(text)
+    return plan_from_json(text) if text is not None else None
 
 
 def _cause(memory: Memory, run: RunRecord) -> str | None:
@@ -187,8 +198,8 @@ def _named(runs: Collection[RunRecord], all_runs: Collection[RunRecord], word: s
 
 def _undo_of(memory: Memory, runs: Collection[RunRecord], run: RunRecord) -> RunRecord:
     for other in runs:
-        target = document_of(memory, other).target
-        if target.cause == "undo" and target.of == run.run:
+        plan = document_if_any(memory, other)
+        if plan and plan.target.cause == "undo" and plan.target.of == run.run:
             return other
     raise PicoError(error("nothing-to-redo", f"{called(memory, run)} was not undone", hint="`pico runs` lists them"))
 

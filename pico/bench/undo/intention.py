@@ -50,18 +50,23 @@ def keep(place: Place, command: str) -> Callable[[], None]:
         set_aside(path)
         file = os.fdopen(open_file(path, os.O_RDWR | os.O_CREAT | os.O_APPEND), "ab+")  # no folder: nothing to undo
         fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        file.truncate(0)
-        file.write(CALLED.dump(as_json(found)))
-        file.flush()
-        os.fsync(file.fileno())
     except OSError:  # another command is at it, which says so itself, or nothing can be written
         return lambda: None
 
     def end() -> None:
         with suppress(OSError):
             path.unlink()
-        file.close()
+        with suppress(OSError):
+            file.close()
 
+    try:
+        file.truncate(0)
+        file.write(CALLED.dump(as_json(found)))
+        file.flush()
+        os.fsync(file.fileno())
+    except OSError:  # a full disk: no half of it stays
+        end()
+        return lambda: None
     return end
 
 

@@ -34,12 +34,12 @@ _MEANINGS: tuple[tuple[str, str, str], ...] = (
     (
         "did not find expected ',' or ']'",
         "a list that was opened with `[` does not end",
-        "close it with `]`; separate items with commas",
+        'close it with `]`; separate items with commas; quote an item with `[` or `{` in it: `["l[0]"]`',
     ),
     (
         "did not find expected ',' or '}'",
         "a mapping that was opened with `{` does not end",
-        "close it with `}`; separate entries with commas",
+        'close it with `}`; separate entries with commas; quote a value with `[` or `{` in it: `{a: "l[0]"}`',
     ),
     ("found unexpected end of stream", "a quoted text does not end", "close the quote with the mark that opened it"),
     ("found unexpected document indicator", "a quoted text does not end", "close the quote"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import field
+from types import MappingProxyType
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error
@@ -20,6 +21,7 @@ from pico.model.diff import (
 )
 from pico.model.observation import Observation, ObservedComponent, doubtful, slot_at
 from pico.model.pose import Pose, angle_between, short
+from pico.model.quantities import Value
 from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.shown.html import table
@@ -37,7 +39,8 @@ class StatusRow:
     deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
     the values. `requested`: it differs, and is light that is asked for, which no state is. `note`: missing, held,
     toppled or uncertain. `kept`: the goal that has the last word on it, if it differs and stays at its live value.
-    `unread`: no device of the bench reads it, so that it is compared with nothing.
+    `unread`: no device of the bench reads it, so that it is compared with nothing. `unstated`: it was set here, and
+    neither commit nor manifest names it; None for every other one.
     """
 
     component: str
@@ -56,6 +59,7 @@ class StatusRow:
     note: str = ""
     kept: str = ""
     unread: bool = False
+    unstated: bool | None = None
 
     @property
     def address(self) -> str:
@@ -65,7 +69,7 @@ class StatusRow:
     @property
     def equal(self) -> bool:
         """Whether there is nothing to tell about it."""
-        return not (self.edited or self.off or self.note or self.requested or self.kept or self.unread)
+        return not (self.edited or self.off or self.note or self.requested or self.kept or self.unread or self.unstated)
 
 
 @record
@@ -88,6 +92,7 @@ class Status:
         counts = {
             "not committed": sum(row.edited for row in self.rows), "off": sum(row.off for row in self.rows),
             "not seen as it should be": sum(bool(row.note) for row in self.rows),
+            "set, but in no state": sum(bool(row.unstated) for row in self.rows),
             "unknown": sum(row.unread for row in self.rows), "strangers": len(self.unknown),
         }  # fmt: skip
         said = ", ".join(f"{number} {what}" for what, number in counts.items() if number)
@@ -111,10 +116,12 @@ def _shown(value: Any) -> str:
 def compare(
     setup: Setup, committed: LabState | None, desired: LabState, seen: Observation, head: str = "", *,
     only: Collection[str] | None = None, unaligned: Mapping[str, str] = NOTHING,
+    unstated: Mapping[str, Value] = MappingProxyType({}),
 ) -> Status:  # fmt: skip
     """Return the three states side by side, sorted by component and tunable; `committed` is None without a commit.
 
     `only`: these components. `unaligned`: set-points of `desired` that light has yet to find, by address, with why.
+    `unstated`: what was set here and no state names, by address, with its live value.
     """
     off = _by_address([*diff_observed(setup, seen, desired), *_unfound(desired, unaligned)])
     moved = _by_address(diff_observed(setup, seen, committed)) if committed else {}
@@ -122,7 +129,9 @@ def compare(
     unread = {*unread_values(seen, desired)}
     for name in sorted(setup.lab.inventory if only is None else setup.lab.inventory.keys() & set(only)):
         rows.append(_pose_row(setup, name, committed, desired, seen, off, moved))
-        rows.extend(_value_rows(setup, name, committed, desired, seen, off, moved, unread))
+        values = _value_rows(setup, name, committed, desired, seen, off, moved, unread)
+        values += [_unstated_row(setup, a, v) for a, v in unstated.items() if a.partition(".")[0] == name]
+        rows.extend(sorted(values, key=lambda row: row.tunable))
     unknown = {name: thing.pose for name, thing in seen.unknown.items()}
     return Status(
         lab=setup.lab.name,
@@ -203,6 +212,12 @@ def _value_rows(
     ]
 
 
+def _unstated_row(setup: Setup, address: str, value: Value) -> StatusRow:
+    component, _, tunable = address.partition(".")
+    unit = setup.type_of(component).tunables[tunable].unit
+    return StatusRow(component=component, tunable=tunable, live=value, unit=unit, unstated=True)
+
+
 def _near(kind: Tunable | None, change: Change | None, live: Any, goal: Any) -> str:
     """Return what is told beside a value that is not exactly right: by how much it deviates; of one that light finds
     why it is not."""
@@ -240,7 +255,8 @@ def _note(setup: Setup, name: str, part: ObservedComponent | None) -> str:
 
 def _deviation(goal: Pose, live: Pose) -> str:
     turned = angle_between(goal.yaw, live.yaw)
-    return f"± {goal.distance(live):.2f} mm" + (f", {turned:+.2f}°" if abs(turned) >= 0.005 else "")
+    angle = f", {abs(turned):.2f}°" if abs(turned) >= 0.005 else ""
+    return f"({goal.distance(live):.2f} mm{angle} off)"
 
 
 def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:

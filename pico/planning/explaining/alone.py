@@ -27,7 +27,7 @@ def alone_refused(refused: Refusal, i: int, source: Source) -> Diagnostic:
         direct = [b for b in own if b.step.start == 0 and b.step.goal in mover.goals]
         return no_path(table, (direct or own)[0], source)
     if not mover.holds:
-        return error("blocked", f"{mover.name} can't be moved: no robot has its gripper free", address=mover.name)
+        return _no_hand(table, mover.name)
     for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
         if all(table.grip(i, p, h) is None for p in places for h in mover.holds):
             return _no_grip(table, i, verb, places, source)
@@ -79,6 +79,13 @@ def _arms_at_ends(table: Conflicts, i: int) -> tuple[set[str], set[str]]:
         for places in ((0,), mover.goals)
     )
     return start, goal
+
+
+def _no_hand(table: Conflicts, name: str) -> Diagnostic:
+    if table.setup.lab.robots:
+        return error("blocked", f"{name} can't be moved: no robot has its gripper free", address=name)
+    hint = f"move it by hand, then `pico capture {name}`; or add an arm under `robots:` in lab.yaml"
+    return error("no-arm", f"{name} can't be moved: the lab has no arm", hint=hint, address=name)
 
 
 def _no_grip(table: Conflicts, i: int, verb: str, places: Sequence[int], source: Source) -> Diagnostic:
