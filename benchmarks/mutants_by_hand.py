@@ -180,7 +180,7 @@ SAFETY_BY_HAND: tuple[ByHand, ...] = (
         "pico/drivers/elliptec.py", "Of two mounts on one line one is taken for turned when the other one is; the beam goes elsewhere."),
     ByHand("a stop closes the shutters before what is under way has ended",
         "        await self._halt_all()\n        await self.idle()\n        await self._shut()",
-        "        await self._halt_all()\n        await self._shut()\n        await self.idle()", "test_light_and_inputs.py::test_a_stop_waits_for_what_is_under_way_and_then_closes_shutters_alone",
+        "        await self._halt_all()\n        await self._shut()\n        await self.idle()", "test_light_and_inputs.py::test_a_stop_waits_for_what_is_under_way_and_then_ends_light",
         "pico/backends/hardware/session.py", "An operation that is just about to open a shutter opens it after the stop, and it stays open."),
     ByHand("of two limits of its speed an arm keeps to the higher one",
         "slow = max(1.0, fastest / min(most, speed or most))", "slow = max(1.0, fastest / max(most, speed or most))", "test_slow_tools.py::test_an_arm_that_is_tried_out_goes_no_faster_than_asked",

@@ -30,7 +30,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
-from pico.backends.guard.note import notices, read  # noqa: E402
+from pico.backends.hardware.guard.note import notices, read  # noqa: E402
 from pico.base.state_files import EDGE  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.diagnostics import PicoError  # noqa: E402

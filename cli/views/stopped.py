@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.note import Ended
 from pico.edge.protocol import RECORDING, STEERING, Holder
 from pico.model.record import as_json
 from pico.runs.journal import RunRecord

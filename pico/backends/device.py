@@ -18,8 +18,8 @@ from pico.model.record import record
 from pico.model.trace.event import Event
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
-    from pico.backends.guard.verdict import Trip
+    from pico.backends.hardware.guard.note import Ended
+    from pico.backends.hardware.guard.verdict import Trip
     from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World

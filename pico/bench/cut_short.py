@@ -43,7 +43,7 @@ def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     """Return that somebody moves the bench now; else what `cut_short` does, or that the last run was interrupted, and
     which arms stand where they were stopped with an empty hand, are lost or have a fault."""
-    from pico.backends.guard.note import CODE as GUARD
+    from pico.backends.hardware.guard.note import CODE as GUARD
     from pico.edge.guard.table_lock import CODE as TABLE_LOCK
     from pico.model.instruments.fault import CODES as FAULTS
     from pico.model.observation import LOST, left_standing

@@ -7,7 +7,7 @@ from dataclasses import replace
 from datetime import datetime, timedelta
 from typing import TYPE_CHECKING
 
-from pico.backends.guard.note import CODE as GUARD
+from pico.backends.hardware.guard.note import CODE as GUARD
 from pico.base import clock
 from pico.bench.cut_short import unattended
 from pico.bench.opened import Opened

@@ -21,7 +21,7 @@ from pico.model.trace.event import Event
 from pico.teleop.frames import Answer, Frame
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
+    from pico.backends.hardware.guard.note import Ended
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.model.arming import Arming

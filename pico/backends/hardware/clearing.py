@@ -11,8 +11,9 @@ from pico.model.instruments.fault import DeviceFault, fault_diagnostic
 
 
 def faulting(bench: Instruments) -> dict[str, Faulting]:
-    """Return the instruments that come to faults, by device."""
-    return {name: one for name, one in bench.all.items() if isinstance(one, Faulting)}
+    """Return the instruments that come to faults, by device; none of a driver that can't be had, which is said
+    elsewhere."""
+    return {n: one for n, one in bench.all.items() if isinstance(one, Faulting) and n not in bench.lacking}
 
 
 async def faults_of(bench: Instruments) -> tuple[DeviceFault, ...]:

@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, Any, NoReturn, TypeVar
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began, Capabilities
 from pico.backends.devices import HARDWARE
-from pico.backends.guard.note import STOPPED, notices
-from pico.backends.guard.note import read as read_note
-from pico.backends.guard.verdict import Trip
 from pico.backends.hardware.clearing import clear, faults_of
+from pico.backends.hardware.guard.note import STOPPED, notices
+from pico.backends.hardware.guard.note import read as read_note
+from pico.backends.hardware.guard.verdict import Trip
 from pico.backends.hardware.instruments import Instruments, unwired
 from pico.backends.hardware.lights import Lights, closes_itself, lasers_of
 from pico.backends.hardware.links import Links
@@ -50,7 +50,7 @@ from pico.vision.calibration import calibration_digest, known_arms, read_calibra
 from pico.vision.frame import TRIES, Frame
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
+    from pico.backends.hardware.guard.note import Ended
     from pico.backends.measured import Reading
     from pico.backends.sight import Look
     from pico.backends.world import Held, World
@@ -131,7 +131,7 @@ class HardwareDevice:
             report = None
         return frozenset(
             robot for robot, device in self.links.arm_devices().items()
-            if not motion_tried(report, device, as_json(who[device]))
+            if device not in who or not motion_tried(report, device, as_json(who[device]))
         )  # fmt: skip
 
     # looking

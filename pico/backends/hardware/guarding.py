@@ -7,8 +7,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from pico.backends.attempt import Failed
-from pico.backends.guard.hearing import unsafe
-from pico.backends.guard.verdict import LIGHT, MOTION
+from pico.backends.hardware.guard.hearing import unsafe
+from pico.backends.hardware.guard.verdict import LIGHT, MOTION
 from pico.backends.hardware.instruments import Instruments
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.protocols import SafetyInput, SafetyState

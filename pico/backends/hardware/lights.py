@@ -8,11 +8,11 @@ from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 
-from pico.backends.guard import note as notes
-from pico.backends.guard.ending import Light, LightEnd, end_light
-from pico.backends.guard.note import Ended, Frozen, Note
-from pico.backends.guard.verdict import Trip
-from pico.backends.guard.watch import Guard, Told, Watched
+from pico.backends.hardware.guard import note as notes
+from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
+from pico.backends.hardware.guard.note import Ended, Frozen, Note
+from pico.backends.hardware.guard.verdict import Trip
+from pico.backends.hardware.guard.watch import Guard, Told, Watched
 from pico.backends.hardware.instruments import Instruments
 from pico.base import clock
 from pico.diagnostics import PicoError

@@ -20,8 +20,8 @@ from pico.model.wiring import DeviceEntry
 from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
-    from pico.backends.guard.verdict import Trip
+    from pico.backends.hardware.guard.note import Ended
+    from pico.backends.hardware.guard.verdict import Trip
     from pico.emulators.registry import EmulatedBench
 
 

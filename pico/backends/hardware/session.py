@@ -12,9 +12,9 @@ from pico.backends import checks, ways
 from pico.backends.attempt import Failed, plug_in_failed
 from pico.backends.by_sight import BySight
 from pico.backends.device import Began
-from pico.backends.guard.verdict import Trip
 from pico.backends.halting import sooner, way_out
 from pico.backends.hardware.failing import failed
+from pico.backends.hardware.guard.verdict import Trip
 from pico.backends.hardware.guarding import concerned, require_known_arms, require_safe, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.rehearsing import rehearse

@@ -7,7 +7,7 @@ import asyncio
 import time
 
 from pico.backends.devices import EMULATED, HARDWARE
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.note import Ended
 from pico.diagnostics import PicoError, error
 from pico.edge.network.opening import holder_of, line_of, remembered
 from pico.edge.network.remotes import Place

@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from pico.backends.device import Device
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.note import Ended
 from pico.base import clock
 from pico.diagnostics import PicoError, error
 from pico.edge import emission

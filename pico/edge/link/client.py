@@ -27,7 +27,7 @@ from pico.teleop.frames import Answer, Frame
 from pico.vision.calibration import calibration_from_json
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
+    from pico.backends.hardware.guard.note import Ended
     from pico.backends.sight import Look
     from pico.twin.placement import Placement
     from pico.twin.snapshot import Snapshot

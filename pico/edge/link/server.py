@@ -15,7 +15,7 @@ from contextlib import suppress
 from typing import Any
 
 from pico.backends.devices import HARDWARE
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.note import Ended
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.disk import writing
 from pico.edge import own_lab

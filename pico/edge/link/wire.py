@@ -11,7 +11,7 @@ from functools import cache
 from typing import Any
 
 from pico.backends.device import Capabilities
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.note import Ended
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.armings import Kept
 from pico.edge.protocol import Holder, Job, Lease, OwnLab

@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from typing import Any
 
 from pico.backends.device import LightGuarded
-from pico.backends.guard.note import notices, read
+from pico.backends.hardware.guard.note import notices, read
 from pico.diagnostics import Diagnostic
 from pico.edge.live import telling
 from pico.edge.local import LocalEdge

@@ -12,8 +12,8 @@ from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
-    from pico.backends.guard.verdict import Trip
+    from pico.backends.hardware.guard.note import Ended
+    from pico.backends.hardware.guard.verdict import Trip
 
 
 class Apparatus:

@@ -29,8 +29,8 @@ from pico.model.trace.event import Event
 from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
-    from pico.backends.guard.note import Ended
-    from pico.backends.guard.verdict import Trip
+    from pico.backends.hardware.guard.note import Ended
+    from pico.backends.hardware.guard.verdict import Trip
     from pico.backends.sight import Look
     from pico.edge.armings import Kept
     from pico.edge.unattended import Alone

@@ -10,8 +10,8 @@ from pathlib import Path
 import pytest
 from boxes import INPUTS, guarded, until
 
-from pico.backends.guard.hearing import SILENT, Awake, Hearing
-from pico.backends.guard.note import Note, notices, read, watching, write
+from pico.backends.hardware.guard.hearing import SILENT, Awake, Hearing
+from pico.backends.hardware.guard.note import Note, notices, read, watching, write
 from pico.diagnostics import PicoError
 
 BAR, LOST = 0.5, 1.0

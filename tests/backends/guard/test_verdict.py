@@ -7,7 +7,7 @@ from typing import get_args
 
 import pytest
 
-from pico.backends.guard.verdict import MOTION, InputState, LaserState, verdict
+from pico.backends.hardware.guard.verdict import MOTION, InputState, LaserState, verdict
 from pico.model.arming import CLASSES, LaserClass
 from pico.model.wiring import SafetyKind
 

@@ -14,8 +14,8 @@ from bench_at import bench_at
 from laser_lab import bench, carry, observed, search, set_to, with_type
 
 from pico.backends.attempt import Failed
-from pico.backends.guard.verdict import Cause, Trip
 from pico.backends.hardware import guarding
+from pico.backends.hardware.guard.verdict import Cause, Trip
 from pico.backends.hardware.guarding import concerned, require_safe, tripped, until_tripped
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.hardware.session import HardwareSession

@@ -13,8 +13,8 @@ from bench_at import bench_at
 from laser_lab import bench
 
 from pico.backends.device import Capabilities
-from pico.backends.guard.ending import Closing, LightEnd
-from pico.backends.guard.note import Ended
+from pico.backends.hardware.guard.ending import Closing, LightEnd
+from pico.backends.hardware.guard.note import Ended
 from pico.base.state_files import JOURNAL
 from pico.edge.guard.journaling import record_ended
 from pico.runs.journal import Journal

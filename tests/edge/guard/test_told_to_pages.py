@@ -8,8 +8,8 @@ from typing import Any
 
 from bench_at import bench_at
 
-from pico.backends.guard.ending import Closing, LightEnd
-from pico.backends.guard.note import Ended, Note, write
+from pico.backends.hardware.guard.ending import Closing, LightEnd
+from pico.backends.hardware.guard.note import Ended, Note, write
 from pico.edge.live.following import IDLE, _Following
 
 METHODS = ("listen", "guarded", "guards", "may_emit", "dark_by_itself", "end_light")

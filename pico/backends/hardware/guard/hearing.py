@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from pico.backends.guard.verdict import InputState, LaserState
+from pico.backends.hardware.guard.verdict import InputState, LaserState
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import SafetyState
 from pico.model.wiring import SafetyEntry

@@ -14,9 +14,9 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
-from pico.backends.guard.ending import Light, LightEnd, end_light
-from pico.backends.guard.hearing import Awake, Hearing
-from pico.backends.guard.verdict import LaserState, Trip, verdict
+from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
+from pico.backends.hardware.guard.hearing import Awake, Hearing
+from pico.backends.hardware.guard.verdict import LaserState, Trip, verdict
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import Arm, DeadMan, Laser, SafetyInput, Shutter
 from pico.model.arming import LaserClass

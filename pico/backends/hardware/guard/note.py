@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from pico.backends.guard.ending import Closing, LightEnd
+from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.base import clock
 from pico.base.state_files import GUARD
 from pico.diagnostics import Diagnostic, warning
