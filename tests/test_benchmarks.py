@@ -42,6 +42,7 @@ SMALLEST = {
     "stages": "--seeds 1",
     "random_recipes": "--recipes 2 --broken 4",
     "recipe_kills": "--kills 1 --until 7",
+    "real_bench": "",
     "recording": "--settings 3 --kills 2",
     "shel": "--seeds 1 --fidelity kinematic --only 30",
     "restoration": "--experiments 1 --fidelity kinematic --history staged --only C3 --dark",
