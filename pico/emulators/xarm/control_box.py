@@ -20,6 +20,7 @@ from pico.motion.xarm7 import LIMITS
 
 READY, MOVING, PAUSED, STOPPED, RESET, SLOWING = 2, 1, 3, 4, 5, 6
 POSITION, SERVO, VELOCITY = 0, 1, 4
+SELF_COLLISION, ABNORMAL_CURRENT = 22, 31
 BUTTONS = (1, 2, 3)
 """Faults of the emergency stops: they come back as long as one is pressed."""
 UNPOWERED = (*BUTTONS, *range(10, 18))
@@ -54,7 +55,9 @@ class Settings:
 class ControlBox:
     """An xArm7's control box, `joints` [rad] where the arm stands.
 
-    `moved(joints, seconds)` is told every step, and returns a fault that this meant or 0.
+    `moved(joints, seconds)` is told every step, and returns a fault that this meant or 0. `way(before, after)` returns
+    which share of a step (0 to 1) is free, and the fault of what is in the way or 0: the arm stops where it touches. A
+    collision with itself (22) is detected only where that is switched on, else it is an abnormal current (31).
     """
 
     joints: Joints
@@ -65,6 +68,7 @@ class ControlBox:
     model: int = 7
     claw: Claw = field(default_factory=Claw)
     moved: Callable[[Joints, float], int] | None = None
+    way: Callable[[Joints, Joints], tuple[float, int]] | None = None
     now: float = 0.0
     mode: int = POSITION
     state: int = STOPPED
@@ -132,8 +136,13 @@ class ControlBox:
     def _step(self, joints: Joints) -> None:
         fault = self._forbidden(joints)
         if not fault:
+            share, fault = self.way(self.joints, joints) if self.way else (1.0, 0)
+            if fault:
+                joints = tuple(a + share * (b - a) for a, b in zip(self.joints, joints, strict=True))
             self.joints = joints
-            fault = self.moved(joints, self.now) if self.moved else 0
+            fault = (self.moved(joints, self.now) if self.moved else 0) or fault
+        if fault == SELF_COLLISION and not self.settings.self_collision:
+            fault = ABNORMAL_CURRENT
         if fault:
             self.fail(fault)
         else:
@@ -190,6 +199,7 @@ class ControlBox:
         """Return the box as it is after a restart: the arm stands where it stood, what was not saved is forgotten."""
         found = ControlBox(self.joints, self.serial, self.box_serial, self.firmware, self.axes, self.model)
         found.claw, found.moved, found.now, found.pressed = self.claw, self.moved, self.now, self.pressed
+        found.way = self.way
         found.settings, found.saved = self.saved, self.saved
         found.error = self.pressed
         found.requested, found.unknown, found.invalid = self.requested, self.unknown, self.invalid

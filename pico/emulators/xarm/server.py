@@ -34,7 +34,8 @@ class XArmEmulator:
     """An emulated xArm7, in a thread of this process; `pace`: how many times faster than real its clock runs.
 
     `fingers(joints, wanted, now)` says how far apart [mm] the fingers come to rest that are to go to `wanted`;
-    `moved(joints, seconds)` is told every step and returns the fault that this meant for the arm, or 0. Both are
+    `moved(joints, seconds)` is told every step and returns the fault that this meant for the arm, or 0; `way(before,
+    after)` says how far a step can go, see `ControlBox`. They are
     called from the emulator's thread. What they raise is raised by `close`. `faults`: the box's fault, the emergency
     stop that is pressed and the gripper's fault, 0 for none, as `faulted` is told whenever they change.
     """
@@ -45,11 +46,12 @@ class XArmEmulator:
         fingers: Callable[[Joints, float, float], float] | None = None,
         moved: Callable[[Joints, float], int] | None = None, faults: str = "",
         faulted: Callable[[str], None] | None = None,
+        way: Callable[[Joints, Joints], tuple[float, int]] | None = None,
     ) -> None:  # fmt: skip
         claw = Claw(stroke=stroke)
         if width is not None:
             claw.pulses = claw.target = claw.ends = width * 850 / stroke
-        self.box = ControlBox(tuple(joints), serial=serial, firmware=firmware, claw=claw, moved=moved)
+        self.box = ControlBox(tuple(joints), serial=serial, firmware=firmware, claw=claw, moved=moved, way=way)
         if faults:
             self.box.error, self.box.pressed, claw.error = (int(number) for number in faults.split())
         self._faulted, self._faults_told = faulted, faults or _NO_FAULTS
