@@ -35,8 +35,8 @@ class OfArm:
         return self._world.now()
 
     def read(self, what: str) -> Any:
-        """`joints` and `width` now; `faults` that it keeps; `pace`; `fingers`, `moved` and `way`: what the emulator calls, see
-        `XArmEmulator`."""
+        """`joints` and `width` now; `faults` that it keeps; `pace`; `fingers`, `moved` and `way`: what the
+        emulator calls, see `XArmEmulator`."""
         if what == "joints":
             return self._world.motors(self._robot)
         if what == "width":
@@ -61,8 +61,8 @@ class OfArm:
 
     def _way(self, before: Joints, after: Joints) -> tuple[float, int]:
         """Which share of a step the arm can move, with the load that was set, and the error of what ends it."""
-        nominal = [self._world.nominal(self._robot, joints) for joints in (before, after)]
-        return self._world.way(self._robot, *nominal, load=self._own["emulator"].box.settings.load[0])
+        begin, end = (self._world.nominal(self._robot, joints) for joints in (before, after))
+        return self._world.way(self._robot, begin, end, self._own["emulator"].box.settings.load[0])
 
 
 class OfPart:

@@ -1,5 +1,5 @@
-"""What an emulated arm touches on its way: table, parts, strange objects, other arms and itself, by the shapes of PICO's
-model at the joints where the arm is. It knows no plan, no margin and no keep-out zone."""
+"""What an emulated arm touches on its way: table, parts, strange objects, other arms and itself, by the shapes of
+PICO's model at the joints where the arm is. It knows no plan, no margin and no keep-out zone."""
 
 from __future__ import annotations
 

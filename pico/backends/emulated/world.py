@@ -103,9 +103,9 @@ class EmulatedWorld:
                 self._contacts = Contacts(self.setup)
             arm, world = self.setup.lab.robots[robot], self._world
             holding = world.robots[robot].holding
-            if holding and tool_pose(arm, after)[2] > tool_pose(arm, before)[2]:
-                if abs(load - GRIPPER_MASS - self.setup.type_of(holding).geometry.mass) > LOAD_ERROR:
-                    return 0.0, ABNORMAL_CURRENT
+            lifts = holding and tool_pose(arm, after)[2] > tool_pose(arm, before)[2]
+            if holding and lifts and abs(load - GRIPPER_MASS - self.setup.type_of(holding).geometry.mass) > LOAD_ERROR:
+                return 0.0, ABNORMAL_CURRENT
             return self._contacts.free_share(world, robot, before, after)
 
     def fingers(self, robot: str, joints: Joints, wanted: float, now: float) -> float:

@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 
+from pico.emulators.disturbance import Line
 from pico.emulators.xarm.claw import Claw
 from pico.emulators.xarm.control_box import ControlBox
 from pico.emulators.xarm.frames import finished, split
@@ -70,6 +71,8 @@ class XArmEmulator:
         self._readers: dict[socket.socket, tuple[int, float]] = {}
         self._host, self._port = "", 0
         self._broken: BaseException | None = None
+        self.line: Line | None = None
+        """Of its reports; commands are answered as ever."""
 
     @property
     def address(self) -> Mapping[str, str | int]:
@@ -125,6 +128,10 @@ class XArmEmulator:
         with self.lock:
             self.box = self.box.restarted()
         self.start()
+
+    def reboot(self) -> None:
+        """Restart from a thread of its own, for the one that serves ends."""
+        threading.Thread(target=self.restart, daemon=True, name="emulated xarm restart").start()
 
     def freeze(self) -> None:
         """Answer nothing and tell nothing any more, with all connections open."""
@@ -232,7 +239,8 @@ class XArmEmulator:
         for connection, (port, last) in list(self._readers.items()):
             if self.box.now - last >= EVERY[port]:
                 self._readers[connection] = (port, self.box.now)
-                self._send(connection, report(port, self.box))
+                said = report(port, self.box)
+                self._send(connection, self.line.sent(said) if self.line else said)
 
     def _send(self, to: socket.socket, data: bytes) -> None:
         try:

@@ -50,8 +50,8 @@ class Arm:
         self.world = EmulatedWorld(setup, bench_at(folder, "emulated"))
         behind = OfArm(self.world, "arm1")
         self.emulator = XArmEmulator(
-            joints=behind.read("joints"), moved=behind.read("moved"), way=behind.read("way"), fingers=behind.read("fingers"),
-            width=behind.read("width"),
+            joints=behind.read("joints"), moved=behind.read("moved"), way=behind.read("way"),
+            fingers=behind.read("fingers"), width=behind.read("width"),
         )  # fmt: skip
         behind.write("emulator", self.emulator)
         self.box = self.emulator.box
