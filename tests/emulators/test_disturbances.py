@@ -5,6 +5,8 @@ from __future__ import annotations
 import random
 import shutil
 import socket
+import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -15,6 +17,7 @@ from pico.emulators.disturbance import Disturbed, Line
 from pico.emulators.elliptec import Mount
 from pico.emulators.registry import EmulatedBench
 from pico.emulators.scpi import Meter, Spoken
+from pico.emulators.xarm.server import XArmEmulator
 from pico.emulators.zaber import Stage
 from pico.manifest.emulation import emulation_of
 from pico.manifest.load import load_folder
@@ -148,3 +151,24 @@ def test_a_scenario_that_is_wrong_is_told_at_its_line_and_keeps_only_the_emulate
         emulation_of(tmp_path, found.setup)
     scenario.write_text(head + "seed: 5\n")
     assert emulation_of(tmp_path, found.setup).seed == 5
+
+
+def test_an_arm_loses_reports_and_restarts_without_what_was_not_saved() -> None:
+    entry = DeviceEntry(driver="xarm.arm", address={"host": "h"}, emulator="xarm")
+    scenario = {"arm": Disturbance(dropped_replies=0.5, reboot_after=0.6)}
+    bench = EmulatedBench({"arm": entry}, lambda n, e: Alone(), scenario)
+    (emulator,) = bench._running
+    assert isinstance(emulator, XArmEmulator)
+    first = emulator.box
+    try:
+        with socket.create_connection((str(emulator.address["host"]), 30003), timeout=2) as link:
+            heard, until = 0, time.monotonic() + 0.4
+            while time.monotonic() < until:
+                heard += len(link.recv(4096)) // 135
+            assert 5 < heard < 35, "of 40 reports"
+            with suppress(OSError):
+                while link.recv(4096):
+                    pass
+        assert emulator.box is not first
+    finally:
+        bench.close()
