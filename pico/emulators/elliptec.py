@@ -114,7 +114,8 @@ class Mount:
             self._status = 0
             return f"GS{status:02X}"
         if name == "gp":
-            return f"PO{_hex(self._pulses(now))}"
+            noise = (self.behind.read("noise") or 0.0) / self.kind.per * self.kind.pulses
+            return f"PO{_hex(self._pulses(now) + round(noise))}"
         if name in ("sj", "so"):
             if name == "sj":
                 self._jog = _signed(hexadecimal)
@@ -125,8 +126,21 @@ class Mount:
         return f"GJ{_hex(self._jog)}" if name == "gj" else f"HO{_hex(self._offset)}"
 
     def _go(self, angle: float, now: float) -> str:
-        self._motion = Motion(self._angle(now), angle, now, self.kind.speed, self.behind.read("stuck"))
+        travel = self.behind.read("travel")
+        if travel is not None and not travel[0] <= angle <= travel[1]:
+            return f"GS{OUT_OF_RANGE:02X}"
+        begin = self._angle(now)
+        if self.kind.pulses:
+            angle += (self.behind.read("settle_error") or 0.0) - (angle - begin) * (
+                self.behind.read("lost_steps") or 0.0
+            )
+        self._motion = Motion(begin, angle, now, self.kind.speed, self.behind.read("stuck"))
         return ""
+
+    def reboot(self) -> None:
+        """Restart: a motion ends where it is, and the status is forgotten."""
+        self._stopped(self.behind.now())
+        self._status = 0
 
     def _stopped(self, now: float) -> str:
         if self._motion:
@@ -217,7 +231,14 @@ def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> SerialServed:
         )
         for entry, behind in devices.values()
     }
-    return SerialServed(MountBus(mounts))
+    served = SerialServed(MountBus(mounts))
+
+    def reboot() -> None:
+        for mount in mounts.values():
+            mount.reboot()
+
+    served.reboot = reboot
+    return served
 
 
 BUS = Emulator(started=_started, bus=("port",))

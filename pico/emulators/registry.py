@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from importlib.metadata import EntryPoint
+from types import MappingProxyType
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error, warning
 from pico.emulators.behind import Behind, Emulator, Running
+from pico.emulators.disturbance import Disturbed, Line, OnWire
+from pico.model.instruments.emulation import Disturbance
 from pico.model.wiring import DeviceEntry
 from pico.plug_ins.calling import Interface, guarded, having, instance, loaded
 from pico.plug_ins.faults import CODE
 from pico.plug_ins.known import entries, own_module, plug_in
 
 GROUP = "pico.emulators"
+NOTHING: Mapping[str, Disturbance] = MappingProxyType({})
 
 
 @cache
@@ -44,21 +49,32 @@ class EmulatedBench:
     """Emulators of a bench's devices, running; `entries` are the devices with the addresses that lead to them.
     `failed`: why others have none, by device: none is named, it is not installed, or it is broken."""
 
-    def __init__(self, devices: Mapping[str, DeviceEntry], behind: Callable[[str, DeviceEntry], Behind]) -> None:
-        """Start one for each link. Whatever else an emulator of PICO raises ends those that run."""
+    def __init__(
+        self, devices: Mapping[str, DeviceEntry], behind: Callable[[str, DeviceEntry], Behind],
+        scenario: Mapping[str, Disturbance] = NOTHING, seed: int = 1,
+    ) -> None:  # fmt: skip
+        """Start one for each link; `scenario`: what goes wrong with devices, by name, drawn from `seed`. Whatever else
+        an emulator of PICO raises ends those that run."""
         self._running: list[Running] = []
         self.entries: dict[str, DeviceEntry] = {}
         self.failed: dict[str, tuple[Diagnostic, ...]] = {}
         try:
             for name, together in self._links(devices).items():
                 try:
-                    started = emulator(name[0]).started({n: (entry, behind(n, entry)) for n, entry in together.items()})
+                    started = emulator(name[0]).started({
+                        n: (entry, _disturbed(behind(n, entry), scenario.get(n), f"{seed} {n}"))
+                        for n, entry in together.items()
+                    })  # fmt: skip
                 except PicoError as exc:
                     if any(one.code != CODE for one in exc.diagnostics):
                         raise
                     self.failed |= dict.fromkeys(together, tuple(exc.diagnostics))
                     continue
                 self._running.append(started)
+                about = next((scenario[n] for n in together if n in scenario), None)
+                if about and isinstance(started, OnWire):
+                    drawn = random.Random(f"{seed} wire {next(iter(together))}")
+                    started.line = Line(about, drawn, started.reboot)
                 for n, entry in together.items():
                     who = {key: said for key, said in getattr(started, "identity", {}).items() if key in entry.identity}
                     address = {**entry.address, **started.address}
@@ -88,6 +104,10 @@ class EmulatedBench:
             with suppress(Exception):
                 running.close()
         self._running.clear()
+
+
+def _disturbed(behind: Behind, about: Disturbance | None, seed: str) -> Behind:
+    return Disturbed(behind, about, random.Random(seed)) if about else behind
 
 
 def no_emulator(name: str) -> Diagnostic:

@@ -5,6 +5,7 @@ A line a command, ending in a line feed; several in a line are parted by `;`. Wh
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Callable, Mapping
 from typing import Protocol
@@ -13,12 +14,16 @@ from pico.emulators.behind import Behind, Emulator
 from pico.emulators.serving import TcpServed
 from pico.model.wiring import DeviceEntry
 
+NOISE = 1e-4
+"""Standard deviation of a power without a scenario, as a share of it."""
+OUT_OF_RANGE = '-222,"Data out of range"'
 CLOSED = 1
 """A contact with current through it: all is well. A cut wire is an open one."""
 
 
 class Instrument(Protocol):
-    """An instrument: commands in capitals, and what is answered; None for one that there is not."""
+    """An instrument: commands in capitals, and what is answered; None for one that there is not, an entry of the error
+    queue (`-222,"Data out of range"`) for one that is refused."""
 
     def answer(self, command: str, argument: str) -> str | None: ...
 
@@ -52,24 +57,31 @@ class Spoken:
         reply = self._instrument.answer(re.sub(r"SENS(E|OR)\b", "SENS", command), argument.strip())
         if reply is None:
             self._errors.append('-113,"Undefined header"')
+        elif re.match(r'-\d+,"', reply):
+            self._errors.append(reply)
+            return ""
         return reply or ""
 
 
 class Meter:
-    """A power meter like Thorlabs' PM100: `power` [W] is behind it; it takes 400 to 1100 nm."""
+    """A power meter like Thorlabs' PM100: `power` [W] is behind it; it takes 400 to 1100 nm. Readings have noise."""
 
     LEAST, GREATEST = 400.0, 1100.0
 
     def __init__(self, behind: Behind) -> None:
-        self._behind, self._wavelength = behind, 635.0
+        self._behind, self._wavelength, self._drawn = behind, 635.0, random.Random(1)
 
     def answer(self, command: str, argument: str) -> str | None:
         if command in ("MEAS:POW?", "READ?"):
-            return f"{float(self._behind.read('power') or 0.0):.9E}"
+            noise = self._behind.read("noise")
+            noise = self._drawn.gauss(0.0, NOISE) if noise is None else noise
+            return f"{float(self._behind.read('power') or 0.0) * (1 + noise):.9E}"
         if command == "SENS:CORR:WAV?":
             return f"{ {'MIN': self.LEAST, 'MAX': self.GREATEST}.get(argument, self._wavelength):.3f}"
         if command == "SENS:CORR:WAV":
-            self._wavelength = min(max(float(argument), self.LEAST), self.GREATEST)
+            if not self.LEAST <= float(argument) <= self.GREATEST:
+                return OUT_OF_RANGE
+            self._wavelength = float(argument)
             self._behind.write("wavelength", self._wavelength)
             return ""
         return "S130C,SN 1104,,1,1,33" if command == "SYST:SENS:IDN?" else None

@@ -33,7 +33,7 @@ class _Number:
         """Return the reply to a line, '' for none, None for a line that it does not know."""
         if (name := self._reads.get(line)) is not None:
             found = self._behind.read(name)
-            return NAN if found is None else f"{float(found):.9E}"
+            return NAN if found is None else f"{float(found) + (self._behind.read('noise') or 0.0):.9E}"
         for name, template in self._sets.items():
             if (said := template.fullmatch(line)) is not None:
                 try:

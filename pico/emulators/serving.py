@@ -9,7 +9,10 @@ import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
+
+if TYPE_CHECKING:
+    from pico.emulators.disturbance import Line
 
 PAUSE = 0.005
 """How often a device is asked whether it has anything to say by itself [s]."""
@@ -30,7 +33,19 @@ class Conversation(Protocol):
 class _Served(ABC):
     def __init__(self) -> None:
         self._closing = threading.Event()
+        self.line: Line | None = None
+        self.reboot: Callable[[], None] = lambda: None
+        """What the device forgets when it restarts."""
         self._thread = threading.Thread(target=self._serve, daemon=True, name="pico-emulator")
+
+    def _heard(self, conversation: Conversation, data: bytes) -> bytes:
+        """Return what is on the wire once `data` was heard, or nothing was (b"")."""
+        line = self.line
+        if line is None:
+            return conversation.heard(data) if data else conversation.due()
+        if data and not line.hears():
+            return b""
+        return line.sent(conversation.heard(data) if data else conversation.due())
 
     @abstractmethod
     def _serve(self) -> None: ...
@@ -68,27 +83,28 @@ class TcpServed(_Served):
                             waiting.register(link, selectors.EVENT_READ)
                             open_[link] = self._conversation()
                     elif isinstance(key.fileobj, socket.socket):
-                        _answer(key.fileobj, open_, waiting)
+                        self._answer(key.fileobj, open_, waiting)
                 self.idle()
                 for link, conversation in list(open_.items()):
-                    if said := conversation.due():
+                    if said := self._heard(conversation, b""):
                         with suppress(OSError):
                             link.sendall(said)
             for link in open_:
                 link.close()
 
-
-def _answer(link: socket.socket, open_: dict[socket.socket, Conversation], waiting: selectors.BaseSelector) -> None:
-    try:
-        data = link.recv(65536)
-        if data:
-            link.sendall(open_[link].heard(data))
-    except OSError:
-        data = b""
-    if not data:
-        waiting.unregister(link)
-        del open_[link]
-        link.close()
+    def _answer(
+        self, link: socket.socket, open_: dict[socket.socket, Conversation], waiting: selectors.BaseSelector
+    ) -> None:  # fmt: skip
+        try:
+            data = link.recv(65536)
+            if data:
+                link.sendall(self._heard(open_[link], data))
+        except OSError:
+            data = b""
+        if not data:
+            waiting.unregister(link)
+            del open_[link]
+            link.close()
 
 
 class SerialServed(_Served):
@@ -110,8 +126,8 @@ class SerialServed(_Served):
             while not self._closing.is_set():
                 said = b""
                 if waiting.select(PAUSE):
-                    said = self._conversation.heard(os.read(self._ours, 4096))
-                if said := said + self._conversation.due():
+                    said = self._heard(self._conversation, os.read(self._ours, 4096))
+                if said := said + self._heard(self._conversation, b""):
                     os.write(self._ours, said)
         os.close(self._ours)
         os.close(self._theirs)

@@ -10,6 +10,8 @@ from pico.emulators.motion import Motion
 from pico.emulators.serving import TcpServed
 from pico.model.wiring import DeviceEntry
 
+TRAVEL = 101.6
+"""How far a stage goes without a scenario [mm]."""
 DEVICE_ID = 50081
 """Of an X-LSM stage."""
 
@@ -25,6 +27,7 @@ class Stage:
         self._speed = float(entry.setting("emulated_speed", 26.0))
         self._behind = behind
         self._motion: Motion | None = None
+        self._slip = 0.0  # by how much the counter is ahead of where the stage is [mm]
         self._warning, self._homed = "--", behind.read("homed") is True
 
     def reply(self, words: list[str]) -> str:
@@ -41,10 +44,15 @@ class Stage:
             case ["get", setting] if (found := self._setting(setting, now)) is not None:
                 return "OK", found
             case ["move", "abs", counts] if self._homed:
-                self._go(int(counts) / self._counts, now)
+                position = int(counts) / self._counts
+                low, high = self._travel()
+                if not low <= position <= high:
+                    return "RJ", "BADDATA"
+                self._go(position - self._slip, now)
             case ["home"]:
                 self._homed = True
                 self._behind.write("homed", True)
+                self._slip = 0.0
                 self._go(0.0, now)
             case ["stop"]:
                 self._behind.write("position", self._at(now))
@@ -55,6 +63,14 @@ class Stage:
                 return "RJ", "BADCOMMAND"
         return "OK", "0"
 
+    def reboot(self) -> None:
+        """Restart: where the stage is stays so, but it knows no reference any more."""
+        self._motion, self._warning, self._homed = None, "--", False
+        self._behind.write("homed", False)
+
+    def _travel(self) -> tuple[float, float]:
+        return self._behind.read("travel") or (0.0, TRAVEL)
+
     def _warnings(self, *, clear: bool) -> str:
         flags = [] if self._warning == "--" else [self._warning]
         flags += [] if self._homed else ["WR"]
@@ -64,14 +80,21 @@ class Stage:
 
     def _setting(self, name: str, now: float) -> str | None:
         known = {
-            "pos": str(round(self._at(now) * self._counts)), "system.serial": self.serial, "deviceid": str(DEVICE_ID),
+            "pos": str(round((self._at(now) + self._slip + (self._behind.read("noise") or 0.0)) * self._counts)),
+            "limit.min": str(round(self._travel()[0] * self._counts)),
+            "limit.max": str(round(self._travel()[1] * self._counts)),
+            "system.serial": self.serial, "deviceid": str(DEVICE_ID),
             "version": self.firmware, "limit.home.triggered": str(int(self._homed)), "system.axiscount": "1",
         }  # fmt: skip
         return known.get(name)
 
     def _go(self, position: float, now: float) -> None:
         stuck = self._behind.read("stuck")
-        self._motion = Motion(self._at(now), position, now, self._speed, stuck)
+        begin = self._at(now)
+        lost = (position - begin) * (self._behind.read("lost_steps") or 0.0)
+        self._slip += lost
+        end = position - lost + (self._behind.read("settle_error") or 0.0)
+        self._motion = Motion(begin, end, now, self._speed, stuck)
 
     def _go_on(self, now: float) -> None:
         if self._motion is None:
@@ -124,7 +147,14 @@ def _checksum(text: str) -> int:
 
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> TcpServed:
     chain = {int(entry.address.get("device", 1)): Stage(entry, behind) for entry, behind in devices.values()}
-    return TcpServed(lambda: Chain(chain))
+    served = TcpServed(lambda: Chain(chain))
+
+    def reboot() -> None:
+        for stage in chain.values():
+            stage.reboot()
+
+    served.reboot = reboot
+    return served
 
 
 CHAIN = Emulator(started=_started, bus=("host", "port"))

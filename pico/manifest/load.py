@@ -14,6 +14,7 @@ from pico.manifest.catalog import both, catalog_names, packaged_type, read_type,
 from pico.manifest.checks.labs import check_lab, check_setup
 from pico.manifest.checks.own_parameters import check_own_parameters
 from pico.manifest.checks.required_version import require_satisfied, unsatisfied
+from pico.manifest.emulation import read_emulation
 from pico.manifest.file_names import TOLD, misnamed_manifest, named_as_manifest
 from pico.manifest.files import begin_or_restore, decode_all, read_folder, shown_path, shut
 from pico.manifest.records import read_record
@@ -167,6 +168,8 @@ def _load(
     setup, view = (setup, replace(view_of(setup), without=without)) if setup else _bench(documents, found, root)
     if view:
         found.extend(wrong for other in others for wrong in headless(other, view.kinds))
+    if setup:  # a scenario that can't be read keeps nobody from the bench, but for the emulated one
+        found.extend(replace(wrong, severity="warning") for wrong in read_emulation(others, setup)[1])
     state = None
     if documents["LabState"]:
         state, wrong = read_states(documents["LabState"], view) if view else (None, [])

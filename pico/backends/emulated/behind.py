@@ -35,15 +35,15 @@ class OfArm:
         return self._world.now()
 
     def read(self, what: str) -> Any:
-        """`joints` and `width` now; `faults` that it keeps; `pace`; `fingers` and `moved`: what the emulator calls, see
-        `XArmEmulator`."""
+        """`joints` and `width` now; `faults` that it keeps; `pace`; `fingers`, `moved` and `way`: what the
+        emulator calls, see `XArmEmulator`."""
         if what == "joints":
             return self._world.motors(self._robot)
         if what == "width":
             return self._world.width(self._robot)
         if what == "faults":
             return self._world.recalled(self._robot, what)
-        given = {"pace": self._world.pace, "fingers": self._fingers, "moved": self._moved}
+        given = {"pace": self._world.pace, "fingers": self._fingers, "moved": self._moved, "way": self._way}
         return given.get(what, self._own.get(what))
 
     def write(self, what: str, value: Any) -> None:
@@ -58,6 +58,11 @@ class OfArm:
     def _moved(self, joints: Joints, seconds: float) -> int:
         self._world.moved(self._robot, self._world.nominal(self._robot, joints))
         return 0
+
+    def _way(self, before: Joints, after: Joints) -> tuple[float, int]:
+        """Which share of a step the arm can move, with the load that was set, and the error of what ends it."""
+        begin, end = (self._world.nominal(self._robot, joints) for joints in (before, after))
+        return self._world.way(self._robot, begin, end, self._own["emulator"].box.settings.load[0])
 
 
 class OfPart:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import sys
 from dataclasses import replace
 
 from pico.backends.emulated.behind import OfArm, OfCamera, OfInput, OfPart, SharedEyes
@@ -11,6 +12,7 @@ from pico.diagnostics import PicoError, error
 from pico.drivers.registry import driver
 from pico.emulators.behind import Alone, Behind
 from pico.emulators.registry import EmulatedBench
+from pico.manifest.emulation import emulation_of
 from pico.model.instruments.kinds import kind_of
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
@@ -24,8 +26,9 @@ def brought_up(
     setup: Setup, place: BenchPlace, entries: dict[str, DeviceEntry]
 ) -> tuple[EmulatedWorld, EmulatedBench]:  # fmt: skip
     """Start an emulator for each link of a lab's devices, and return the world behind them with the running bench,
-    whose `entries` lead to them, and whose `failed` have none. Raises PicoError for a world that can't be read."""
-    pace = _pace()
+    whose `entries` lead to them, and whose `failed` have none. Raises PicoError for a world or a
+    scenario that can't be read."""
+    pace, scenario = _pace(), emulation_of(place.root, setup)
     world = EmulatedWorld(setup, place, pace)
     eyes = SharedEyes(world)
     eyes.open()
@@ -41,7 +44,9 @@ def brought_up(
         return OfCamera(world, of, eyes) if of in setup.lab.cameras else Alone()
 
     paced = {name: _paced(entry, pace) for name, entry in entries.items()}
-    return world, EmulatedBench(paced, behind)
+    if scenario.devices:
+        sys.stderr.write(f"emulation: what goes wrong is drawn from seed {scenario.seed}\n")
+    return world, EmulatedBench(paced, behind, scenario.devices, scenario.seed)
 
 
 def _paced(entry: DeviceEntry, pace: float) -> DeviceEntry:

@@ -9,6 +9,7 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import replace
 
+from pico.backends.emulated.contact import ABNORMAL_CURRENT, LOAD_ERROR, Contacts
 from pico.backends.hardware.settings import Settings
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import World, put_down
@@ -21,6 +22,7 @@ from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_pose
 from pico.motion.reach import grasp_height
+from pico.motion.shapes import FINGER_MASS, PALM_MASS
 from pico.motion.types import Joints
 from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
@@ -28,6 +30,8 @@ from pico.twin.learned import read_learned
 from pico.vision.calibration import known_arms
 
 FOLDER = "emulated"
+GRIPPER_MASS = PALM_MASS + 2 * FINGER_MASS
+"""Of the hand without a part [kg]."""
 BETWEEN = 15.0
 """How far a part may be from the middle of the fingers across the table, and in height, to be between them [mm]."""
 ALONG = 10.0
@@ -52,6 +56,7 @@ class EmulatedWorld:
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
         self._devices = Settings(place, DEVICES)
         self._pulled: set[str] = set()
+        self._contacts: Contacts | None = None
         self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
@@ -89,6 +94,19 @@ class EmulatedWorld:
             if self._wall() - self._kept > KEPT:
                 with suppress(PicoError):  # what comes next says so
                     self.store()
+
+    def way(self, robot: str, before: Joints, after: Joints, load: float) -> tuple[float, int]:
+        """Return which share (0 to 1) of a step between nominal joints [rad] an arm can move, and the controller error
+        that ends it or 0; `load`: of tool and part, as the control box reckons with it [kg]."""
+        with self._lock:
+            if self._contacts is None:
+                self._contacts = Contacts(self.setup)
+            arm, world = self.setup.lab.robots[robot], self._world
+            holding = world.robots[robot].holding
+            lifts = holding and tool_pose(arm, after)[2] > tool_pose(arm, before)[2]
+            if holding and lifts and abs(load - GRIPPER_MASS - self.setup.type_of(holding).geometry.mass) > LOAD_ERROR:
+                return 0.0, ABNORMAL_CURRENT
+            return self._contacts.free_share(world, robot, before, after)
 
     def fingers(self, robot: str, joints: Joints, wanted: float, now: float) -> float:
         """Return how far apart [mm] the fingers of a robot come to rest that are at `now` and go to `wanted`: at the

@@ -17,13 +17,14 @@ _POSTURE = (0.0, -1.05, 0.0, 0.52, 0.0, 1.57, 0.0)
 
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> XArmEmulator:
     """Start one for an arm and its gripper, which share a link: what is behind the first of them knows `joints` [rad],
-    `width` [mm], `pace`, its `faults`, and what is called as `fingers` and `moved` (see `XArmEmulator`); each may be
-    missing. It is told the `emulator`, for faults to be injected."""
+    `width` [mm], `pace`, its `faults`, and what is called as `fingers`, `moved` and `way` (see `XArmEmulator`);
+    each may be missing. It is told the `emulator`, for faults to be injected."""
     _, behind = next(iter(devices.values()))
     serial = next((str(e.identity["serial"]) for e, _ in devices.values() if "serial" in e.identity), SERIAL)
     made = XArmEmulator(
         joints=behind.read("joints") or _POSTURE, serial=serial, pace=float(behind.read("pace") or 1.0),
         width=behind.read("width"), fingers=behind.read("fingers"), moved=behind.read("moved"),
+        way=behind.read("way"),
         faults=str(behind.read("faults") or ""), faulted=lambda faults: behind.write("faults", faults),
     )  # fmt: skip
     behind.write("emulator", made)

@@ -9,17 +9,22 @@ from __future__ import annotations
 
 import math
 from collections import Counter, deque
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
+import numpy as np
+
 from pico.emulators.xarm.claw import Claw
-from pico.emulators.xarm.kinematics import tool_point
+from pico.emulators.xarm.inverse import Line, composed, line
+from pico.emulators.xarm.kinematics import angles, rotation, tool_point, tool_pose
 from pico.emulators.xarm.motions import Driven, Followed, Motion, Planned
 from pico.motion.types import Joints
 from pico.motion.xarm7 import LIMITS
 
 READY, MOVING, PAUSED, STOPPED, RESET, SLOWING = 2, 1, 3, 4, 5, 6
-POSITION, SERVO, VELOCITY = 0, 1, 4
+POSITION, SERVO, MANUAL, VELOCITY, ONLINE_JOINTS, ONLINE_LINE = 0, 1, 2, 4, 6, 7
+_KINEMATICS = 21
+SELF_COLLISION, ABNORMAL_CURRENT = 22, 31
 BUTTONS = (1, 2, 3)
 """Faults of the emergency stops: they come back as long as one is pressed."""
 UNPOWERED = (*BUTTONS, *range(10, 18))
@@ -33,6 +38,8 @@ class Settings:
     """What is set in the box; lost when it restarts, but for what was saved."""
 
     offset: tuple[float, ...] = (0.0,) * 6
+    world: tuple[float, ...] = (0.0,) * 6
+    """Of the base in the world frame."""
     load: tuple[float, ...] = (0.0,) * 4
     sensitivity: int = 3
     teaching: int = 3
@@ -50,11 +57,20 @@ class Settings:
     jerks: dict[int, float] = field(default_factory=lambda: {31: 1000.0, 32: 50000.0, 33: 20.0, 34: 20.0})
 
 
+@dataclass(frozen=True)
+class Straight:
+    """Where a straight way of the tool ends: a pose in the base frame."""
+
+    pose: tuple[float, ...]
+
+
 @dataclass
 class ControlBox:
     """An xArm7's control box, `joints` [rad] where the arm stands.
 
-    `moved(joints, seconds)` is told every step, and returns a fault that this meant or 0.
+    `moved(joints, seconds)` is told every step, and returns a fault that this meant or 0. `way(before, after)` returns
+    which share of a step (0 to 1) is free, and the fault of what is in the way or 0: the arm stops where it touches. A
+    collision with itself (22) is detected only where that is switched on, else it is an abnormal current (31).
     """
 
     joints: Joints
@@ -65,6 +81,7 @@ class ControlBox:
     model: int = 7
     claw: Claw = field(default_factory=Claw)
     moved: Callable[[Joints, float], int] | None = None
+    way: Callable[[Joints, Joints], tuple[float, int]] | None = None
     now: float = 0.0
     mode: int = POSITION
     state: int = STOPPED
@@ -74,7 +91,7 @@ class ControlBox:
     pressed: int = 0
     settings: Settings = field(default_factory=Settings)
     saved: Settings = field(default_factory=Settings)
-    queue: deque[tuple[Joints, float, float, int]] = field(default_factory=deque)
+    queue: deque[tuple[Joints | Straight, float, float, int]] = field(default_factory=deque)
     motion: Motion | None = None
     finished: list[tuple[int, int]] = field(default_factory=list)
     """Transactions whose motion is over, with how it ended (0: there); told to who asked for that by register 254."""
@@ -82,6 +99,12 @@ class ControlBox:
     unknown: list[int] = field(default_factory=list)
     invalid: list[int] = field(default_factory=list)
     """Registers that were answered as invalid, the unknown ones among them."""
+    inputs: int = 0
+    outputs: int = 0
+    """Digital, a bit each."""
+    analog_inputs: list[int] = field(default_factory=lambda: [0, 0])
+    analog_outputs: list[int] = field(default_factory=lambda: [0, 0])
+    """0 to 4095 for 0 to 10 V."""
     _doing: int = 0
 
     @property
@@ -119,7 +142,13 @@ class ControlBox:
             return
         if self.motion is None and self.queue:
             end, speed, acceleration, self._doing = self.queue.popleft()
-            self.motion = Planned(self.joints, end, speed, acceleration, self.now)
+            if isinstance(end, Straight):
+                self.motion = line(self.joints, end.pose, self.settings.offset, speed, acceleration, self.now)
+                if self.motion is None:
+                    self.fail(_KINEMATICS)
+                    return
+            else:
+                self.motion = Planned(self.joints, end, speed, acceleration, self.now)
         if self.motion is None:
             self.state = READY
             return
@@ -132,8 +161,13 @@ class ControlBox:
     def _step(self, joints: Joints) -> None:
         fault = self._forbidden(joints)
         if not fault:
+            share, fault = self.way(self.joints, joints) if self.way else (1.0, 0)
+            if fault:
+                joints = tuple(a + share * (b - a) for a, b in zip(self.joints, joints, strict=True))
             self.joints = joints
-            fault = self.moved(joints, self.now) if self.moved else 0
+            fault = (self.moved(joints, self.now) if self.moved else 0) or fault
+        if fault == SELF_COLLISION and not self.settings.self_collision:
+            fault = ABNORMAL_CURRENT
         if fault:
             self.fail(fault)
         else:
@@ -142,7 +176,7 @@ class ControlBox:
     def _end_of(self, motion: Motion) -> None:
         if not motion.over(self.now):
             return
-        if isinstance(motion, Planned):
+        if isinstance(motion, Planned | Line):
             self.finished.append((self._doing, 0))
         self._doing = 0
         if not isinstance(motion, Followed):
@@ -169,6 +203,40 @@ class ControlBox:
         self.queue.append((end, max(1e-4, min(speed, most)), max(0.01, min(acceleration, 20.0)), transaction))
         self.state = MOVING
 
+    def plan_line(self, end: Straight, speed: float, acceleration: float, transaction: int) -> None:
+        """Queue a straight way of the tool [mm/s, mm/s2]."""
+        most = self.settings.reduced_tool_speed if self.settings.reduced else 1000.0
+        self.queue.append((end, max(0.1, min(speed, most)), max(1.0, min(acceleration, 50000.0)), transaction))
+        self.state = MOVING
+
+    def replace_motion(self) -> None:
+        """End what is under way for what comes now, as the online modes do."""
+        self.queue.clear()
+        self.motion, self._doing = None, 0
+
+    def pose(self, joints: Joints) -> tuple[float, ...]:
+        """Return the tool's pose in the world frame."""
+        pose = tool_pose(joints, self.settings.offset)
+        return composed(self.settings.world, pose) if any(self.settings.world) else pose
+
+    def based(self, pose: Sequence[float]) -> tuple[float, ...]:
+        """Return a pose of the world frame in the base frame."""
+        if not any(self.settings.world):
+            return tuple(pose)
+        turn = rotation(*self.settings.world[3:]).T
+        point = turn @ (np.array(pose[:3]) - np.array(self.settings.world[:3]))
+        return (*point.tolist(), *angles(turn @ rotation(*pose[3:])))
+
+    def planned_joints(self) -> Joints:
+        """Return where the arm is when all joint moves before are done [rad]."""
+        last = self.queue[-1][0] if self.queue else getattr(self.motion, "end", self.joints)
+        return self.joints if isinstance(last, Straight) else last
+
+    def planned_pose(self) -> tuple[float, ...]:
+        """Return where the tool is in the base frame when all moves before are done."""
+        last = self.queue[-1][0] if self.queue else getattr(self.motion, "end", self.joints)
+        return last.pose if isinstance(last, Straight) else tool_pose(last, self.settings.offset)
+
     def follow(self, target: Joints) -> None:
         """Take a set-point of the servo mode."""
         motion = self.motion if isinstance(self.motion, Followed) else Followed(self.joints, self.now)
@@ -190,6 +258,7 @@ class ControlBox:
         """Return the box as it is after a restart: the arm stands where it stood, what was not saved is forgotten."""
         found = ControlBox(self.joints, self.serial, self.box_serial, self.firmware, self.axes, self.model)
         found.claw, found.moved, found.now, found.pressed = self.claw, self.moved, self.now, self.pressed
+        found.way = self.way
         found.settings, found.saved = self.saved, self.saved
         found.error = self.pressed
         found.requested, found.unknown, found.invalid = self.requested, self.unknown, self.invalid

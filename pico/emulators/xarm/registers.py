@@ -11,6 +11,7 @@ from dataclasses import replace
 from pico.emulators.xarm import reports
 from pico.emulators.xarm.control_box import (
     MOVING,
+    ONLINE_JOINTS,
     PAUSED,
     POSITION,
     READY,
@@ -21,17 +22,12 @@ from pico.emulators.xarm.control_box import (
     ControlBox,
 )
 from pico.emulators.xarm.frames import Frame, floats, packed, reply
-from pico.emulators.xarm.kinematics import tool_pose
+from pico.emulators.xarm.more_registers import MODES, MORE, Invalid, movable, queued
 from pico.motion.xarm7 import LIMITS
 
 _INVALID = 0x08
-_MODES = (POSITION, SERVO, VELOCITY)
 _TOOL_BUS, _BAUD_2M = 9, 11
 _BAUD, _DIGITAL_IN = 0x0A0B, 0x0A14
-
-
-class Invalid(Exception):
-    """A register or a parameter that there is not: answered as invalid, and changes nothing."""
 
 
 def answer(box: ControlBox, frame: Frame) -> bytes:
@@ -99,7 +95,7 @@ def _clear_warning(box: ControlBox, frame: Frame) -> bytes:
 
 
 def _set_mode(box: ControlBox, frame: Frame) -> bytes:
-    if frame.payload[0] not in _MODES:
+    if frame.payload[0] not in MODES:
         raise Invalid
     if frame.payload[0] != box.mode:
         box.reset()
@@ -107,25 +103,17 @@ def _set_mode(box: ControlBox, frame: Frame) -> bytes:
     return b""
 
 
-def _movable(box: ControlBox, mode: int) -> bool:
-    if box.mode != mode:
-        raise Invalid
-    return not box.status & 0x50
-
-
-def _queued(box: ControlBox) -> bytes:
-    return struct.pack(">H", len(box.queue))
-
-
 def _move_joints(box: ControlBox, frame: Frame) -> bytes:
     *joints, speed, acceleration, _ = floats(frame.payload, 10)
-    if _movable(box, POSITION):
+    if movable(box, POSITION, ONLINE_JOINTS):
+        if box.mode == ONLINE_JOINTS:
+            box.replace_motion()
         box.plan(tuple(joints), speed, acceleration, frame.transaction)
-    return _queued(box)
+    return queued(box)
 
 
 def _servo(box: ControlBox, frame: Frame) -> bytes:
-    if _movable(box, SERVO):
+    if movable(box, SERVO):
         box.follow(floats(frame.payload, 7))
     return b""
 
@@ -133,14 +121,14 @@ def _servo(box: ControlBox, frame: Frame) -> bytes:
 def _drive(box: ControlBox, frame: Frame) -> bytes:
     speeds = floats(frame.payload, 7)
     duration = struct.unpack("<f", frame.payload[29:33])[0] if len(frame.payload) >= 33 else -1.0
-    if _movable(box, VELOCITY):
+    if movable(box, VELOCITY):
         box.drive(speeds, duration if duration > 0 else math.inf)
     return b""
 
 
 def _limit_of_motion(box: ControlBox, frame: Frame) -> bytes:
     (box.settings.jerks[frame.register],) = floats(frame.payload, 1)
-    return _queued(box)
+    return queued(box)
 
 
 def _change(box: ControlBox, resets: bool, **values: object) -> bytes:
@@ -198,7 +186,7 @@ def _save(box: ControlBox, frame: Frame) -> bytes:
 
 
 def _pose(box: ControlBox, frame: Frame) -> bytes:
-    return packed(*tool_pose(box.joints, box.settings.offset))
+    return packed(*box.pose(box.joints))
 
 
 def _joints(box: ControlBox, frame: Frame) -> bytes:
@@ -207,7 +195,7 @@ def _joints(box: ControlBox, frame: Frame) -> bytes:
 
 
 def _forward(box: ControlBox, frame: Frame) -> bytes:
-    return packed(*tool_pose(floats(frame.payload, 7), box.settings.offset))
+    return packed(*box.pose(floats(frame.payload, 7)))
 
 
 def _beyond_joints(box: ControlBox, frame: Frame) -> bytes:
@@ -248,13 +236,13 @@ def _accepted(box: ControlBox, frame: Frame) -> bytes:
     return b""
 
 
-REGISTERS: Mapping[int, Callable[[ControlBox, Frame], bytes]] = {
+REGISTERS: Mapping[int, Callable[[ControlBox, Frame], bytes]] = dict(MORE) | {
     1: _version,
     2: _serials,
     11: _enable,
     12: _set_state,
     13: lambda box, frame: bytes([box.state]),
-    14: lambda box, frame: _queued(box),
+    14: lambda box, frame: queued(box),
     15: _errors,
     16: _clear_error,
     17: _clear_warning,

@@ -11,7 +11,6 @@ import struct
 
 from pico.emulators.xarm.control_box import SLOWING, ControlBox
 from pico.emulators.xarm.frames import packed
-from pico.emulators.xarm.kinematics import tool_pose
 
 POSE, NORMAL, RICH = 30003, 30001, 30002
 EVERY = {POSE: 0.01, NORMAL: 0.2, RICH: 0.2}
@@ -35,7 +34,7 @@ def _head(box: ControlBox) -> bytes:
     state = min(box.state, SLOWING)
     return (
         struct.pack(">BH", box.mode << 4 | state, len(box.queue))
-        + packed(*box.joints, *tool_pose(box.joints, box.settings.offset))
+        + packed(*box.joints, *box.pose(box.joints))
         + packed(*[0.0] * 7)
     )
 

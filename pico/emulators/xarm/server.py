@@ -14,6 +14,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 
+from pico.emulators.disturbance import Line
 from pico.emulators.xarm.claw import Claw
 from pico.emulators.xarm.control_box import ControlBox
 from pico.emulators.xarm.frames import finished, split
@@ -34,7 +35,8 @@ class XArmEmulator:
     """An emulated xArm7, in a thread of this process; `pace`: how many times faster than real its clock runs.
 
     `fingers(joints, wanted, now)` says how far apart [mm] the fingers come to rest that are to go to `wanted`;
-    `moved(joints, seconds)` is told every step and returns the fault that this meant for the arm, or 0. Both are
+    `moved(joints, seconds)` is told every step and returns the fault that this meant for the arm, or 0; `way(before,
+    after)` says how far a step can go, see `ControlBox`. They are
     called from the emulator's thread. What they raise is raised by `close`. `faults`: the box's fault, the emergency
     stop that is pressed and the gripper's fault, 0 for none, as `faulted` is told whenever they change.
     """
@@ -45,11 +47,12 @@ class XArmEmulator:
         fingers: Callable[[Joints, float, float], float] | None = None,
         moved: Callable[[Joints, float], int] | None = None, faults: str = "",
         faulted: Callable[[str], None] | None = None,
+        way: Callable[[Joints, Joints], tuple[float, int]] | None = None,
     ) -> None:  # fmt: skip
         claw = Claw(stroke=stroke)
         if width is not None:
             claw.pulses = claw.target = claw.ends = width * 850 / stroke
-        self.box = ControlBox(tuple(joints), serial=serial, firmware=firmware, claw=claw, moved=moved)
+        self.box = ControlBox(tuple(joints), serial=serial, firmware=firmware, claw=claw, moved=moved, way=way)
         if faults:
             self.box.error, self.box.pressed, claw.error = (int(number) for number in faults.split())
         self._faulted, self._faults_told = faulted, faults or _NO_FAULTS
@@ -68,6 +71,8 @@ class XArmEmulator:
         self._readers: dict[socket.socket, tuple[int, float]] = {}
         self._host, self._port = "", 0
         self._broken: BaseException | None = None
+        self.line: Line | None = None
+        """Of its reports; commands are answered as ever."""
 
     @property
     def address(self) -> Mapping[str, str | int]:
@@ -123,6 +128,10 @@ class XArmEmulator:
         with self.lock:
             self.box = self.box.restarted()
         self.start()
+
+    def reboot(self) -> None:
+        """Restart from a thread of its own, for the one that serves ends."""
+        threading.Thread(target=self.restart, daemon=True, name="emulated xarm restart").start()
 
     def freeze(self) -> None:
         """Answer nothing and tell nothing any more, with all connections open."""
@@ -230,7 +239,8 @@ class XArmEmulator:
         for connection, (port, last) in list(self._readers.items()):
             if self.box.now - last >= EVERY[port]:
                 self._readers[connection] = (port, self.box.now)
-                self._send(connection, report(port, self.box))
+                said = report(port, self.box)
+                self._send(connection, self.line.sent(said) if self.line else said)
 
     def _send(self, to: socket.socket, data: bytes) -> None:
         try:

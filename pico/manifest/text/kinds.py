@@ -13,12 +13,13 @@ from pico.manifest.text.tree import Document, Map, Node, Scalar
 API = "pico/v1"
 Kind = Literal["Lab", "LabState", "ComponentType", "Devices"]
 KINDS: tuple[Kind, ...] = ("Lab", "LabState", "ComponentType", "Devices")
-READ_ELSEWHERE = ("Recipe",)
+READ_ELSEWHERE = ("Recipe", "Emulation")
 METADATA: dict[str, tuple[str, ...]] = {
     "Lab": ("name", "title"),
     "LabState": ("lab",),
     "ComponentType": ("name", "title", "description"),
     "Devices": ("lab",),
+    "Emulation": ("lab",),
 }
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 PATH_NAME = re.compile(r"[a-z][a-z0-9_]*(?:/[a-z0-9][a-z0-9_]*)*")

@@ -1,0 +1,135 @@
+"""An emulated arm hits what is in its way: the bench behind it sees where the joints are, and knows no plan."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from bench_at import bench_at
+from emulated_lab import wired_lab
+
+from pico.backends.emulated.behind import OfArm
+from pico.backends.emulated.world import EmulatedWorld
+from pico.emulators.xarm.control_box import READY
+from pico.emulators.xarm.server import XArmEmulator
+from pico.model.catalog import Footprint
+from pico.model.observation import UnknownObject
+from pico.model.pose import Pose
+from pico.model.setup import Setup
+from pico.motion.arms import ArmMotion
+from pico.motion.kinematics import tool_pose
+from pico.motion.types import Joints, MovePath, StandingObject
+
+GOAL = Pose(395, 420, 0)
+
+
+@pytest.fixture(scope="module")
+def setup(tmp_path_factory: pytest.TempPathFactory) -> Setup:
+    return wired_lab(tmp_path_factory.mktemp("lab"))
+
+
+@pytest.fixture(scope="module")
+def path(setup: Setup) -> MovePath:
+    """The way of lx_125 from its slot onto the table, past everything that stands there."""
+    world = EmulatedWorld(setup, bench_at(Path("/nonexistent"), "emulated")).world()
+    standing = {
+        n: StandingObject(b.pose, setup.type_of(n).geometry) for n, b in world.components.items() if b.pose is not None
+    }
+    start = standing["lx_125"].pose
+    found = ArmMotion(setup).move("arm1", "lx_125", start, GOAL, 0.0, standing)
+    assert isinstance(found, MovePath)
+    return found
+
+
+class Arm:
+    """An emulated arm before its world, without any wire and at times of its own."""
+
+    def __init__(self, setup: Setup, folder: Path) -> None:
+        self.world = EmulatedWorld(setup, bench_at(folder, "emulated"))
+        behind = OfArm(self.world, "arm1")
+        self.emulator = XArmEmulator(
+            joints=behind.read("joints"), moved=behind.read("moved"), way=behind.read("way"),
+            fingers=behind.read("fingers"), width=behind.read("width"),
+        )  # fmt: skip
+        behind.write("emulator", self.emulator)
+        self.box = self.emulator.box
+        self.box.settings.load = (0.8 + setup.type_of("lx_125").geometry.mass, 0.0, 0.0, 0.0)
+        self.start()
+
+    def start(self) -> None:
+        self.box.clear()
+        self.box.enabled, self.box.state = True, READY
+
+    def go(self, joints: Joints, speed: float = 1.0) -> int:
+        """Move to nominal joints, and return the error that this ended with."""
+        arm = self.world._arms["arm1"]
+        self.box.plan(tuple(float(v) for v in arm.told([joints])[0]), speed, 5.0, 1)
+        while self.box.queue or self.box.motion is not None:
+            self.box.advance(self.box.now + 0.02)
+        return self.box.error
+
+    def open(self, width: float) -> None:
+        claw = self.box.claw
+        claw.enabled = True
+        claw.go(width * 850 / claw.stroke)
+        claw.advance(self.box.now + 10)
+
+    def follow(self, path: MovePath, until: str = "retreat") -> int:
+        for segment in path.segments:
+            for joints in segment.joints:
+                if self.go(joints):
+                    return self.box.error
+            self.open(segment.opening)
+            if segment.name == until:
+                break
+        return 0
+
+
+@pytest.fixture
+def arm(setup: Setup, tmp_path: Path) -> Arm:
+    return Arm(setup, tmp_path)
+
+
+def test_an_undisturbed_way_with_a_part_touches_nothing(arm: Arm, path: MovePath) -> None:
+    assert arm.follow(path) == 0
+    put = arm.world.world().components["lx_125"]
+    assert put.presence == "seen" and put.pose is not None and put.pose.distance(GOAL) < 1e-6
+
+
+def test_an_arm_that_is_driven_into_the_table_stops_on_it_and_can_be_moved_off_again(arm: Arm, setup: Setup) -> None:
+    parked = arm.box.joints
+    assert arm.go((0.0, 1.3, 0.0, 1.2, 0.0, 0.3, 0.0)) == 31 and arm.box.state == 4 and arm.box.motion is None
+    height = tool_pose(setup.lab.robots["arm1"], arm.world.joints("arm1"))[2]
+    assert height > -20, "the arm stops where it touches"
+    arm.start()
+    assert arm.go(parked) == 0
+
+
+def test_a_fast_arm_does_not_jump_through_the_table_between_two_looks(arm: Arm) -> None:
+    arm.box.plan((0.0, 1.3, 0.0, 1.2, 0.0, 0.3, 0.0), math.pi, 20.0, 1)
+    arm.box.advance(0.0)
+    arm.box.advance(9.0)
+    assert arm.box.error == 31
+
+
+def test_a_part_or_a_strange_thing_in_the_way_of_what_is_carried_is_hit(arm: Arm, path: MovePath) -> None:
+    over = next(s for s in path.segments if s.name == "lower").joints[-1]
+    pose = Pose(*tool_pose(arm.world.setup.lab.robots["arm1"], over)[:2])
+    strange = UnknownObject(pose=pose, footprint=Footprint(disc=20), height=60)
+    arm.world.change(lambda world: replace(world, unknown={"unknown/7": strange}))
+    assert arm.follow(path) == 31
+    assert arm.world.world().robots["arm1"].holding == "lx_125"
+
+
+@pytest.mark.parametrize(("detection", "error"), [(True, 22), (False, 31)])
+def test_an_arm_that_folds_into_itself_says_so_if_it_detects_that(arm: Arm, detection: bool, error: int) -> None:
+    arm.box.settings.self_collision = detection
+    assert arm.go((arm.box.joints[0], -1.9, 0.0, -0.1, 0.0, 1.5, 0.0)) == error
+
+
+def test_a_part_that_is_lifted_with_a_load_far_from_its_own_is_an_abnormal_current(arm: Arm, path: MovePath) -> None:
+    arm.box.settings.load = (4.0, 0.0, 0.0, 0.0)
+    assert arm.follow(path, "grip") == 0, "nothing is lifted yet"
+    assert arm.follow(path) == 31
