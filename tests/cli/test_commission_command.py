@@ -60,7 +60,7 @@ def test_a_bench_is_walked_through_left_off_taken_up_and_then_a_laser_is_armed(
     subprocess.run(["git", "config", "user.name", "Ada Lovelace"], cwd=shel, check=True)
     line = next(one for one in (shel / "lab.yaml").read_text().splitlines() if one.startswith("  arming: {waived"))
     roles = "roles: {laser_user: {people: [Ada Lovelace], laser_class: 3R, hours: 8}}"
-    edit(shel / "lab.yaml", line, f"  arming: {{{roles}}}")
+    edit(shel / "lab.yaml", line, f"  arming: {{{roles}}}\n  hard_wired_interlock: true")
     shutil.copy(DEVICES, shel)
     monkeypatch.setenv("PICO_EMULATED_PACE", "10")
 
