@@ -111,6 +111,7 @@ def _counted(sent: bytes, true: bytes) -> bool | None:
     """Return the state in `state,count`, whose count is above that of every answer before."""
     line = _line(sent)
     state, comma, count = (line or "").strip(" \t\r").partition(",")
+    state = state.strip(" \t")  # IEEE 488.2, 7.4.1.2: blanks may stand around a separator
     newest = int(true.strip().split(b",")[1])
     if not comma or state not in ("0", "1") or not count or any(c not in DIGITS for c in count):
         return None
@@ -204,6 +205,8 @@ def frame(sent: bytes, true: bytes, value: Any) -> Allowed:
         said = json.loads(head)
         mine = json.loads(true.partition(b"\n")[0])
         good = said["id"] == mine["id"] and said["bytes"] == len(data) and said["crc32"] == zlib.crc32(data)
+        if said["dtype"] not in ("uint8", "uint16"):
+            return NOTHING
         pixels = np.frombuffer(data, said["dtype"]).reshape(said["shape"])
     except (ValueError, KeyError, TypeError, RecursionError):
         return NOTHING
