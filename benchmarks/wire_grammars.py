@@ -176,7 +176,7 @@ def zaber(counts: float) -> Callable[[bytes, bytes, Any], Allowed]:
         line = line.rstrip(" \r")  # a blank at its end, or a line feed alone, may pass
         body, colon, checksum = line[1:].partition(":")
         if colon and (
-            len(checksum) != 2
+            len(checksum) not in (1, 2)
             or any(c not in "0123456789ABCDEFabcdef" for c in checksum)
             or (sum(body.encode("latin-1")) + int(checksum, 16)) % 256
         ):
