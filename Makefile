@@ -33,6 +33,8 @@ check: $(STAMP)
 	$(BIN)/python -m pico.recipes.schema --check
 	$(BIN)/python .ci/state_files.py --check
 	$(BIN)/python .ci/fault_page.py --check
+	$(BIN)/python .ci/instrument_kinds.py --check
+	$(BIN)/python .ci/safety_table.py --check
 	$(BIN)/python .ci/page.py check
 	$(BIN)/python .ci/wheel.py
 

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from pico.drivers.xarm.faults import BOX, GRIPPER, box_fault, gripper_fault
@@ -45,15 +44,9 @@ def page() -> str:
     ])  # fmt: skip
 
 
-def main() -> int:
-    if sys.argv[1:] == ["--check"]:
-        if PAGE.exists() and PAGE.read_text(encoding="utf-8") == page():
-            return 0
-        print(f"{PAGE.name} is not as the drivers have it: run `make docs`", file=sys.stderr)
-        return 1
-    PAGE.write_text(page(), encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    import sys
+
+    from printing import printed
+
+    sys.exit(printed(PAGE, page()))

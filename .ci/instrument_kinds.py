@@ -48,4 +48,8 @@ def _row(kind: InstrumentKind) -> str:
 
 
 if __name__ == "__main__":
-    PAGE.write_text(page())
+    import sys
+
+    from printing import printed
+
+    sys.exit(printed(PAGE, page()))

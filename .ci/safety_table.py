@@ -6,7 +6,6 @@
 from __future__ import annotations
 
 import runpy
-import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -22,6 +21,8 @@ def page() -> str:
 
 
 if __name__ == "__main__":
-    if "--check" in sys.argv:
-        sys.exit(0 if PAGE.read_text() == page() else f"{PAGE.name} is not current: run `make docs`")
-    PAGE.write_text(page())
+    import sys
+
+    from printing import printed
+
+    sys.exit(printed(PAGE, page()))

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 from pico.base.state_file import StateFile
@@ -73,15 +72,9 @@ def _row(file: StateFile) -> str:
     return f"| {' | '.join(cells)} |"
 
 
-def main() -> int:
-    if sys.argv[1:] == ["--check"]:
-        if PAGE.exists() and PAGE.read_text(encoding="utf-8") == page():
-            return 0
-        print(f"{PAGE.name} is not as the registry has it: run `make docs`", file=sys.stderr)
-        return 1
-    PAGE.write_text(page(), encoding="utf-8")
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    import sys
+
+    from printing import printed
+
+    sys.exit(printed(PAGE, page()))

@@ -55,7 +55,7 @@ class Act:
             self.run(goals.plan(goals.chosen(("bright",))), "operation_progress")
 
     def unattended(self) -> None:
-        """Measure where nobody is there, held to the terms of a recipe."""
+        """Measure unattended, under the terms of a recipe."""
         terms = Terms(
             recipe="night@20261124T230000Z-abcdef", laser_class="2", until="2099-01-01T00:00:00Z", every=600.0
         )

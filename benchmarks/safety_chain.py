@@ -1,5 +1,6 @@
-"""How fast light ends, whatever fails and whatever goes on: `python benchmarks/safety_chain.py [--faults ...] [--states
-...]`.
+"""How fast light ends for each fault in each state of a bench.
+
+    python benchmarks/safety_chain.py [--faults ...] [--states ...]
 
 Each fault meets each state of a bench, with a laser that has a shutter and one that has none, both with and without a
 dead-man. The bench is taken for a real one (`--backend hardware`): its emulators, and the simulated world behind them,
@@ -43,14 +44,14 @@ FAULTS = {
 }  # fmt: skip
 """Each fault with the safety input that is pulled in it. Once PICO is killed, the client that is, a door opens."""
 STATES = ("idle", "measuring", "moving", "optimizing", "unattended")
-"""What goes on. No driver of an arm makes the small steps of a teleoperation yet: a real bench is not teleoperated."""
+"""What the bench does. No driver of an arm makes the small steps of a teleoperation yet, so that is not measured."""
 LASERS = {"laser": "with shutter", "bare": "without shutter"}
 WATCHDOG = 1.0
 """The dead-man of shutters and lasers [s]."""
 GUARDLESS = ("frozen host", "killed guard")
-"""Faults that leave nobody who could close anything."""
+"""Faults after which PICO can close nothing."""
 TOLD = 2.0
-"""Within which what could not be closed is told [s]."""
+"""The time in which PICO has to report what it could not close [s]."""
 FROZEN = 2.0
 """For how long a host stands still at least [s]."""
 WAIT = 4.0

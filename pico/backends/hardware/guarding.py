@@ -35,7 +35,7 @@ def require_known_arms(setup: Setup, bench: Instruments, operation: Operation) -
     if not bench.armless or not (moves or lets_out(setup, operation)):
         return
     robot, why = next(iter(sorted(bench.armless.items())))
-    text = f"{why[0].summary}; without {robot} no arm moves, and no light is let out, for nobody knows where it stands"
+    text = f"{why[0].summary}; without {robot} no arm moves, and no light is let out: its position is unknown"
     raise Failed(replace(why[0], severity="error", summary=text, address=operation.address))
 
 

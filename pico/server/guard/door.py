@@ -86,10 +86,9 @@ class Door(socket.socket):
     def _present(self) -> list[Visit]:
         return [connection.visit for connection in self._visits.values()]
 
-    def _leave(self, visit: Visit | None) -> bool:
+    def _leave(self, visit: Visit | None) -> None:
         for connection in [c for c in self._visits.values() if c.visit is visit]:
             self._dismiss(connection)
-        return visit is not None
 
     def _make_room(self, address: str) -> None:
         """Close a connection if there are too many."""
@@ -97,16 +96,18 @@ class Door(socket.socket):
         self._leave(superfluous(self._present(), address, min(MOST, max(soft - RESERVE, soft // 2))))
 
     def _run_short(self) -> None:
-        """Free a descriptor: of a connection that waits, else of who is at the door, or the loop would spin."""
-        if self._leave(superfluous(self._present(), "", 0)):
+        """Free a descriptor: close a connection that waits, or else refuse the next one, or the loop would spin."""
+        found = superfluous(self._present(), "", 0)
+        if found is not None:
+            self._leave(found)
             return
-        os.close(self._spare)
-        try:
+        if self._spare >= 0:
+            os.close(self._spare)
+        self._spare = -1
+        with suppress(OSError):
             super().accept()[0].close()
             self._count()
-        except OSError:
-            pass
-        finally:
+        with suppress(OSError):  # another thread took the descriptor: there is no spare one until some are free again
             self._spare = os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC)
 
     def _look(self, loop: asyncio.AbstractEventLoop) -> None:
@@ -143,14 +144,14 @@ class Door(socket.socket):
 
 
 class _Visiting:
-    """What protocols do for the door by which their connection came."""
+    """A protocol whose connection came by a `Door`."""
 
     visit: Visit | None = None
     app: Any
     transport: Any
 
     def welcome(self, transport: asyncio.BaseTransport) -> None:
-
+        """Find the visit of the connection, and give it to the app in the scope of each request."""
         connection = getattr(transport.get_extra_info("socket"), "_sock", None)
         if isinstance(connection, _Accepted):
             self.visit, connection.transport = connection.visit, self.transport
@@ -164,7 +165,7 @@ class _Visiting:
 
 
 class Requests(H11Protocol, _Visiting):
-    """HTTP, with what a connection is waited for."""
+    """HTTP/1.1: its visit says whether headers, a body, the answer or the next request is waited for."""
 
     def connection_made(self, transport: Any) -> None:
         """Begin."""
@@ -188,7 +189,7 @@ class Requests(H11Protocol, _Visiting):
 
 
 class Messages(WebSocketsSansIOProtocol, _Visiting):
-    """WebSockets: whose request was whole."""
+    """A WebSocket: its request was whole, so it is never late."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Begin."""

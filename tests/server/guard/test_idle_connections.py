@@ -12,6 +12,7 @@ import pytest
 from coordinators import Served
 
 from pico.server.guard import door, visits
+from pico.server.running import listening
 
 HALF = b"GET /api/health HTTP/1.1\r\nHost: localhost\r\nX-A: "
 BODY = b"POST /api/login HTTP/1.1\r\nHost: localhost\r\nContent-Length: 900000\r\n\r\n{"
@@ -98,3 +99,22 @@ def test_without_free_descriptors_those_that_wait_leave_and_the_log_stays_short(
             for link in links:
                 link.close()
     assert len([r for r in caplog.records if r.levelno >= logging.WARNING]) <= 1
+
+
+def test_without_free_descriptors_and_without_others_the_newcomer_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    accept, failures = socket.socket.accept, iter([None])
+
+    def short(listening: socket.socket) -> object:
+        if isinstance(listening, door.Door) and next(failures, 0) is None:
+            raise OSError(errno.EMFILE, "Too many open files")
+        return accept(listening)
+
+    monkeypatch.setattr(socket.socket, "accept", short)
+    with listening("127.0.0.1", 0) as served:
+        address = served.getsockname()[:2]
+        with socket.create_connection(address, timeout=10) as refused:
+            with pytest.raises(BlockingIOError):
+                served.accept()
+            assert closed(refused)
+        with socket.create_connection(address, timeout=10), served.accept()[0] as accepted:
+            assert accepted.fileno() >= 0
