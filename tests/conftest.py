@@ -1,6 +1,7 @@
 """Properties draw the same examples in every CI run, and new ones on a developer's machine. The command line in
 process: `pico("plan", "e1")` gives exit code, output and errors. An arm is asked once for a path: see `asked_once`."""
 
+import ctypes
 import gc
 import os
 import subprocess
@@ -60,6 +61,31 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.freeze()
         gc.set_threshold(50_000, 20, 100)
         gc.enable()
+
+
+def _resident() -> int:
+    """Return the memory that this process holds, in bytes."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+
+class _Trim:
+    """Gives free memory back before a fork. A test may need a gigabyte for a moment; the C library keeps it, and from
+    then on each fork copies the tables of all its pages: 60 ms instead of 15."""
+
+    STEP = 64 << 20
+    """Bytes of growth after which it is worth the while."""
+
+    def __init__(self) -> None:
+        self.trim = getattr(ctypes.CDLL(None), "malloc_trim", None) if sys.platform == "linux" else None
+        self.least = 0
+
+    def __call__(self) -> None:
+        if self.trim is not None and _resident() > self.least + self.STEP:
+            self.trim(0)
+            self.least = _resident()
+
+
+os.register_at_fork(before=_Trim())
 
 
 @pytest.fixture
