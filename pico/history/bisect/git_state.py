@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
@@ -146,7 +147,12 @@ class GitBisect:
         return self._git("reset", doing="end the bisection")
 
     def _path(self, name: str) -> Path:
-        return self.root / self._run("rev-parse", "--git-path", name).strip()
+        return self._folder / name
+
+    @cached_property
+    def _folder(self) -> Path:
+        """Git's folder of this working tree."""
+        return Path(self._run("rev-parse", "--absolute-git-dir").removesuffix("\n"))
 
     def _run(self, *arguments: str) -> str:
         return git.run(self.root, arguments, doing="bisect")

@@ -176,6 +176,9 @@ def _runs() -> bool:
 
 def _unset(folder: Path, how: str, name: str) -> None:
     """Take out what may not be there."""
+    at = places(folder)
+    if at and name.rpartition(".")[2].encode() not in small(at.common / "config").lower():
+        return
     try:
         git.run(
             folder, ["config", "--local", how, name], doing="change its configuration", ends=(0, 5)

@@ -22,6 +22,7 @@ from pico.base import clock
 from pico.diagnostics import PicoError, error
 from pico.disk import refusing, spoken, unnamed, unwritable
 from pico.history.git.holders import held
+from pico.history.git.places import places
 
 # git's words, the code of the diagnostic, and what to do. The first that matches counts.
 _KNOWN: tuple[tuple[str, str, str], ...] = (
@@ -178,6 +179,8 @@ def _without_filters(root: Path) -> dict[str, str]:
 
     By the environment, not by `-c`: there a name may hold any character.
     """
+    if not _may_filter(root):
+        return {}
     asked = ["config", "--show-scope", "--name-only", "-z", "--get-regexp", _FILTERS]
     words = run(root, asked, doing="read its configuration", ends=(0, 1)).split("\0")
     pairs = zip(words[::2], words[1::2], strict=False)
@@ -190,6 +193,23 @@ def _without_filters(root: Path) -> dict[str, str]:
     for number, (name, value) in enumerate(off, first):
         found |= {f"GIT_CONFIG_KEY_{number}": name, f"GIT_CONFIG_VALUE_{number}": value}
     return found
+
+
+def _may_filter(root: Path) -> bool:
+    """Return whether the repository's own configuration can name a filter: read from its files, without a process."""
+    at = None if given(root) else places(root)
+    if at is None:
+        return True
+    for path in (at.common / "config", at.own / "config.worktree"):
+        try:
+            text = path.read_bytes().lower()
+        except FileNotFoundError:
+            continue
+        except OSError:
+            return True
+        if b"filter" in text or b"include" in text:
+            return True
+    return False
 
 
 def _environment(root: Path) -> dict[str, str]:

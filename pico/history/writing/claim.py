@@ -169,7 +169,19 @@ def give_up(at: GitFolders) -> None:
     """Remove a claim, then the refs that keep what it names, those that git has packed, too."""
     at.claim.unlink(missing_ok=True)
     shutil.rmtree(at.common / at.kept, ignore_errors=True)
+    if not _may_be_packed(at):
+        return
     packed = git.answer(at.root, ["for-each-ref", "--format=delete %(refname)", at.kept])
     if packed:
         words = ["-c", "core.hooksPath=/dev/null", "update-ref", "--stdin"]
         git.run(at.root, words, doing="forget what was to be written", stdin=packed, ends=range(256))
+
+
+def _may_be_packed(at: GitFolders) -> bool:
+    """Return whether git may keep refs of a claim elsewhere than in files of their own."""
+    try:
+        return at.kept.encode() in (at.common / "packed-refs").read_bytes()
+    except FileNotFoundError:
+        return (at.common / "reftable").exists()
+    except OSError:
+        return True

@@ -41,8 +41,7 @@ def require_resolved(root: Path, own: Path) -> Underway:
     if found == "merge" and _made(root, own):
         git.run(root, ["merge", "--quit"], doing="forget a merge that was made")
         found = underway(own)
-    listed = git.run(root, ["ls-files", "--unmerged", "-z"], doing="list the conflicts").split("\0")
-    files = sorted({entry.partition("\t")[2] for entry in listed if entry})
+    files = _conflicts(root, own)
     begun = f"a {found} is under way" if found else "files were merged (`git stash pop`, perhaps)"
     ended = "`git rebase --continue`" if found == "rebase" else "`pico commit`"
     if files:
@@ -54,6 +53,19 @@ def require_resolved(root: Path, own: Path) -> Underway:
         text = "a rebase is under way: it commits by itself what it has put on top"
         raise PicoError(error("git-rebasing", text, hint="`git rebase --continue`, or `git rebase --abort`"))
     return found
+
+
+def _conflicts(root: Path, own: Path) -> list[str]:
+    """Return the files of which the index has more than one side; git itself is asked for an index that only it
+    reads (a split or sparse one)."""
+    import pygit2
+
+    try:
+        sides = pygit2.Index(str(git.index(root, own))).conflicts
+    except (pygit2.GitError, OSError, ValueError):
+        listed = git.run(root, ["ls-files", "--unmerged", "-z"], doing="list the conflicts").split("\0")
+        return sorted({entry.partition("\t")[2] for entry in listed if entry})
+    return sorted({one.path for entry in sides or () for one in entry if one is not None})
 
 
 def _made(root: Path, own: Path) -> bool:
