@@ -235,7 +235,7 @@ def test_nothing_but_an_option_or_a_choice_selects_the_real_bench(
     told = pico("bench", "use", "hardware")
     assert told.code == 0 and "this lab has no devices file" in told.err
     refused = pico("plan")
-    assert refused.code == 1 and "the real bench cannot be used yet" in refused.err
+    assert refused.code == 1 and "the devices of this bench cannot be used yet" in refused.err
     with pytest.raises(PicoError, match="a script must name that itself"):
         library.open(lab)
     with library.open(lab, bench="sim") as bench:

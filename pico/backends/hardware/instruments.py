@@ -195,14 +195,14 @@ def require_whole(setup: Setup, entries: Mapping[str, DeviceEntry], kinds: Mappi
     over = sorted(name for name, camera in setup.lab.cameras.items() if camera.robot is None)
     eyes = [name for name in over if {("camera", name), ("depth camera", name)} & has]
     if not eyes:
-        missing.append("no driver for cameras, so that nobody sees where the components stand")
+        missing.append("no driver for cameras, so where the components stand is not seen")
     elif set(over) - set(eyes):
         missing.append(f"no driver for the camera {', '.join(sorted(set(over) - set(eyes)))}")
     if not entries and (motors := _driven(setup)):
         missing.append(f"no driver for {', '.join(motors)}")
     if missing:
         hint = "`--backend sim` works on the simulated bench; docs/how-to/hardware.md says how a bench is wired"
-        text = "the real bench cannot be used yet"
+        text = "the devices of this bench cannot be used yet"
         raise PicoError(error("no-hardware", text, detail="\n".join(missing), hint=hint))
 
 
