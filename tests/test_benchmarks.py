@@ -76,6 +76,7 @@ SMALLEST = {
     "safety_chain": "--faults door --states idle --only-dead-man",
     "scale": "--components 40 --moves 6 --check",
     "scan": "--looks 1 --lab labs/minimal",
+    "set_points": "--threads 1 --seconds 1 --inline",
     "sensor": "--repeat 1 --size 128 96",
     "size": "",
     "staging": "INSTANCES --tables 1",

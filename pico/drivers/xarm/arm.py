@@ -21,6 +21,7 @@ from pico.drivers.xarm.faults import box_fault, clearable, told
 from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
 from pico.drivers.xarm.path import Path, checked
+from pico.drivers.xarm.sender import Sender, SenderLost, SentStream
 from pico.drivers.xarm.settings import FENCE, PROPERTIES, SETTINGS, differing, settings
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
 from pico.model.instruments.fault import DeviceFault
@@ -34,6 +35,7 @@ _BY_THE_BOX, _BY_SET_POINTS = 0, 1
 _REPORTED = 1.5
 """How long it may take until what was told is reported [s]."""
 _GONE = object()
+_LOOK = "look at the arm, then run the command again"
 _RETURNED = 0.5
 """How long after a stop it may take until the arm is at rest [s]."""
 
@@ -50,7 +52,9 @@ class XArm:
         self._line = Line(name, bus, entry.identity, self._identified)
         self._link: Link | None = None
         self._ready_link: object = None  # by which it was got ready, _GONE once that was lost under a motion
-        self._stream: Stream | None = None
+        self._stream: Stream | SentStream | None = None
+        self._host, self._port = str(entry.address.get("host", "")), int(entry.address.get("port", CONTROL_PORT))
+        self._sender: Sender | None = None
 
     async def connect(self) -> Identity:
         """Open the link and ask who answers; moves nothing. Raises PicoError."""
@@ -60,6 +64,7 @@ class XArm:
     async def ready(self) -> ArmState:
         """Configure, read back, enable. Raises PicoError for a fault, and for all that is read back otherwise."""
         stops = self._line.stops
+        self._sending()  # it starts while the box is configured
         return await self._line.ask("get ready", lambda link: self._made_ready(link, stops), within=LONGEST)
 
     async def state(self) -> ArmState:
@@ -73,20 +78,27 @@ class XArm:
         Raises PicoError where it does not stand at the first of them, was stopped, met a fault, or the link was lost.
         """
         path = checked(self.name, times, joints, self.settings)
-        stream = await self._line.move("begin to move", lambda link: self._begun(link, path, doing))
+        during = f" during {doing}" if doing else ""
         try:
+            begin = self._line.move("begin to move", lambda link: self._begun(link, path, doing), within=LONGEST)
+            stream = await begin
             how = await _ended(stream)
+        except SenderLost as exc:
+            self._let_go(at_once=True)
+            with suppress(PicoError):  # no set-point comes any more: it stands already
+                await self.stop()
+            text = f"{self.name} was stopped{during}: the process that sends its set-points {exc}"
+            raise PicoError(error("device-stopped", text, hint=_LOOK, address=self.name)) from exc
         except ConnectionError as exc:
             self._ready_link = _GONE
             stream.link.distrust(exc)
-            during = f" during {doing}" if doing else ""
             text, hint = f"{self.name} was lost{during}: {exc}", "look at the arm; then get it ready again"
             raise PicoError(error("device-lost", text, hint=hint, address=self.name)) from exc
         except asyncio.CancelledError:
             stream.end("halted")
             raise
         if how != "moves":
-            text = f"{self.name} was {how} on its way{f' during {doing}' if doing else ''}"
+            text = f"{self.name} was {how} on its way{during}{f': {stream.why}' if stream.why else ''}"
             raise PicoError(error("device-stopped", text, address=self.name))
         return await self.state()
 
@@ -136,8 +148,33 @@ class XArm:
     async def close(self) -> None:
         """Let go of the link."""
         await self.halt()
+        self._let_go()
         await self._line.close()
         self._ready_link = None
+
+    def _sending(self) -> Sender | None:
+        """Return the process that sends set-points, started if there is none; None for an arm that takes none."""
+        if self._sender is None and self.settings.set_points:
+            self._sender = Sender()
+        return self._sender
+
+    def _let_go(self, *, at_once: bool = False) -> None:
+        """Let the process that sends set-points end: once what moves is at rest, or `at_once`."""
+        sender, self._sender = self._sender, None
+        if sender is not None:
+            sender.kill() if at_once else sender.close()
+
+    def _connected(self, link: Link) -> Sender | None:
+        """Return the process that sends set-points, with its connection to the box over which this one has `link`."""
+        sender = self._sending()
+        try:
+            if sender is not None:
+                sender.open(link, socket.gethostbyname(self._host), self._port)
+        except SenderLost as exc:
+            self._let_go()
+            text = f"{self.name} can't move: the process that sends its set-points {exc}"
+            raise PicoError(error("arm-refused", text, hint="run the command again", address=self.name)) from exc
+        return sender
 
     def _identified(self, link: Link) -> Identity:
         self._link = link
@@ -181,6 +218,7 @@ class XArm:
         if _reported(link, lambda: not self._state(link).enabled):
             self._ready_link = None
             raise PicoError(error("arm-refused", f"{self.name} did not enable its motors", address=self.name))
+        self._connected(link)
         return self._state(link)
 
     def _configuration(self, link: Link) -> list[tuple[str, Callable[[], Any], tuple[int, ...]]]:
@@ -220,7 +258,7 @@ class XArm:
         self._ask(link, "change its mode", lambda: link.arm.set_mode(mode))
         self._ask(link, "start", lambda: link.arm.set_state(0))
 
-    def _begun(self, link: Link, path: Path, doing: str) -> Stream:
+    def _begun(self, link: Link, path: Path, doing: str) -> Stream | SentStream:
         self._require_ready(link)
         if self._stream and self._stream.link is link and not self._stream.done.done():
             raise PicoError(error("arm-moves", f"{self.name} is moving already", address=self.name))
@@ -235,9 +273,12 @@ class XArm:
             )
         if link.state() in (_STOPPED, _RESET):
             self._start(link)
-        to = self.settings
-        self._stream = Stream(self.name, link, path, doing=doing, pace=to.pace, set_points=to.set_points)
-        self._stream.start()
+        pace = self.settings.pace
+        if (sender := self._connected(link)) is not None:
+            self._stream = sender.follow(self.name, path, doing=doing, pace=pace)
+        else:
+            own = self._stream = Stream(self.name, link, path, doing=doing, pace=pace, set_points=False)
+            own.start()
         return self._stream
 
     def _require_ready(self, link: Link) -> None:
@@ -284,14 +325,15 @@ def _reported(link: Link, wrong: Callable[[], T]) -> T:
     return found
 
 
-async def _ended(stream: Stream) -> How:
-    """Return how a stream ended; raises ConnectionError as soon as the link is silent, for a request in it may hang."""
+async def _ended(stream: Stream | SentStream) -> How:
+    """Return how a stream ended; raises ConnectionError as soon as the link is silent, for a request in it may hang,
+    and SenderLost as soon as the process is that sends it."""
     done = asyncio.wrap_future(stream.done)
     done.add_done_callback(lambda ended: ended.exception())  # also where nobody waits for it any more
     while not (await asyncio.wait([done], timeout=BEAT))[0]:
         try:
-            stream.link.require_heard()
-        except ConnectionError:
+            stream.require_alive()
+        except (ConnectionError, SenderLost):
             stream.end("stopped")
             raise
     return done.result()

@@ -7,14 +7,31 @@ import time
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from pico.base.awake import Awake
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import Identity
 from pico.drivers.xarm.faults import told
 from pico.drivers.xarm.library import OPENING, connected, dropped
 
 SILENT = 0.6
-"""A link whose last report is older is lost [s]: the box reports every 0.2 s, and the library's own `connected` stays
-true where it froze."""
+"""A box that was not heard of for so long is lost [s], by the time in which this process was running itself.
+
+The library's own `connected` stays true for a box that froze. The box reports every 0.2 s, and a report that was lost
+on its way is sent again 0.2 s later (the least that TCP waits): so one lost packet is heard of after 0.4 s at the
+latest, and 0.6 s of nothing is two in a row, or no box. An answer counts as a report: the one to each set-point says
+that the box took it, or which fault it has.
+
+What may go wrong meanwhile is bounded by something shorter. Set-points are 4 ms apart, each waits for the answer to the
+one before, and an arm that gets none stays at the last: it goes on by one set-point, that is 4 mm at 1 m/s. Under a
+move of the box itself (`follow: moves`) it goes on to the end of that move at most, whatever is noticed here. So this
+limit decides how soon a loss is told (a look every 0.2 s and a second one 0.1 s later: 0.9 s in all), not how far an arm goes unheard.
+
+What this process did not read because it was not running is no silence: while it stands still it sends nothing, and
+what the box said lies in the socket. See `pico.base.awake.Awake`.
+"""
+PAUSE = 0.3
+"""The most that a pause of this process counts [s]; it looks every 0.2 s at least."""
+_AGAIN = 0.05
 _TAKEN = (0, 2)
 """Codes of the library for what was done; 2 with a warning."""
 _UNANSWERED = (-1, 3, 4, 5, 6, 7, 8)
@@ -28,8 +45,8 @@ class Link:
 
     def __init__(self, arm: Any) -> None:
         self.arm = arm
-        self._news = threading.Condition()
-        self._heard, self._count = time.monotonic(), 0
+        self._news, self._clock = threading.Condition(), Awake(time.monotonic, PAUSE)
+        self._heard, self._count = self._clock.now(), 0
         self._wrong = ""
         arm.register_report_callback(self._hear)
 
@@ -50,21 +67,23 @@ class Link:
 
     def _hear(self, report: object) -> None:
         with self._news:
-            self._heard, self._count = time.monotonic(), self._count + 1
+            self._heard, self._count = self._clock.now(), self._count + 1
             self._news.notify_all()
 
     @property
     def age(self) -> float:
-        """How long ago the box was last heard of [s]."""
-        return time.monotonic() - self._heard
+        """How long ago the box was last heard of [s], by the time in which this process was running."""
+        return self._clock.now() - self._heard
 
     def await_reports(self, count: int, within: float = SILENT) -> None:
         """Wait for so many more reports; raises ConnectionError where each takes longer than `within` [s]."""
         with self._news:
             for _ in range(count):
-                before = self._count
-                if not self._news.wait_for(lambda before=before: self._count > before, within):  # type: ignore[misc]
-                    raise ConnectionError(f"the control box reported nothing for {within:g} s")
+                before, began = self._count, self._clock.now()
+                while self._count == before:
+                    if self._clock.now() - began > within:
+                        raise ConnectionError(f"the control box reported nothing for {within:g} s")
+                    self._news.wait(min(_AGAIN, within))
 
     def distrust(self, why: Exception) -> None:
         """Count as lost from now on."""
@@ -89,6 +108,7 @@ class Link:
         answer = call()
         code, values = (answer[0], answer[1:]) if isinstance(answer, list | tuple) else (answer, ())
         if code in taken:
+            self._heard = self._clock.now()
             return values[0] if len(values) == 1 else values or None
         if code in _UNANSWERED:
             raise ConnectionError(f"the control box gave no answer when it was asked to {what}")

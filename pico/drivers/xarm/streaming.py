@@ -1,7 +1,8 @@
 """Motion in a thread of its own: set-points of a path at 250 Hz, or the control box's own moves along its corners.
 
-The thread shares the link with the bus (the vendor's library does one request at a time): an event loop that is busy
-elsewhere must not make an arm stutter. A thread that was late goes on where it was: set-points never leap.
+Set-points are sent so by a process that does nothing else (`sending.py`); moves of the box by the driver's own, which
+shares the link with the bus (the vendor's library does one request at a time). A thread that was late goes on where it
+was: set-points never leap.
 """
 
 from __future__ import annotations
@@ -50,6 +51,8 @@ class Stream:
         self.done: Future[How] = Future()
         self.sent = 0
         """Set-points that were taken."""
+        self.why = ""
+        """Why it came to rest, if it was not asked to."""
         self._name, self.link, self._path, self._doing, self._pace = name, link, path, doing, pace
         self._wanted: How = "moves"
         self._run: Callable[[], None] = self._follow if set_points else self._move
@@ -66,6 +69,10 @@ class Stream:
     def join(self, within: float) -> None:
         """Wait until it sends nothing more, for so long at most [s]."""
         self._thread.join(within)
+
+    def require_alive(self) -> None:
+        """Raise ConnectionError if the link is silent: a request in it may hang."""
+        self.link.require_heard()
 
     def _work(self) -> None:
         try:

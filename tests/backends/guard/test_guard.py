@@ -10,8 +10,9 @@ from pathlib import Path
 import pytest
 from boxes import INPUTS, guarded, until
 
-from pico.backends.hardware.guard.hearing import SILENT, Awake, Hearing
+from pico.backends.hardware.guard.hearing import HELD, SILENT, Hearing
 from pico.backends.hardware.guard.note import Note, notices, read, watching, write
+from pico.base.awake import Awake
 from pico.diagnostics import PicoError
 
 BAR, LOST = 0.5, 1.0
@@ -163,7 +164,7 @@ class Stepped:
 
 def test_a_guard_that_stood_still_blames_no_device_and_one_that_is_starved_notices_a_lost_link() -> None:
     clock = Stepped()
-    awake = Awake(clock)
+    awake = Awake(clock, HELD)
     hearing = Hearing(since=awake.now())
     hearing.answered("a.shutter", True, awake.now())
     clock.at += 3600.0

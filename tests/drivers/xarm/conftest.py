@@ -9,7 +9,7 @@ import pytest
 from xarm_rig import HOME, PACE, SERIAL, Rig, rigged
 
 from pico.diagnostics import PicoError
-from pico.drivers.xarm import library, link
+from pico.drivers.xarm import library
 from pico.drivers.xarm.arm import XArm
 from pico.emulators.xarm.server import XArmEmulator
 
@@ -23,7 +23,6 @@ def shared() -> Iterator[Rig]:
     rig = rigged(emulator, loop)
     with pytest.MonkeyPatch.context() as patched:
         patched.setattr(library, "ANSWER", 1.5)
-        patched.setattr(link, "SILENT", 1.5)
         for _ in range(3):
             if rig.do(_ready(rig.arm)):
                 break

@@ -14,7 +14,9 @@ import numpy as np
 import pytest
 from xarm_rig import HOME, SERIAL, rigged
 
+from pico.base.awake import Awake
 from pico.diagnostics import PicoError
+from pico.drivers.xarm.link import PAUSE, Link
 from pico.drivers.xarm.streaming import PERIOD, Stream
 from pico.emulators.xarm.server import XArmEmulator
 
@@ -87,3 +89,47 @@ def test_an_answer_of_which_the_library_makes_no_sense_is_a_lost_link_and_no_cra
     stream.start()
     with pytest.raises(ConnectionError, match="makes no sense: index out of range"):
         stream.done.result(5)
+
+
+class Reported:
+    """A link at a clock that is set, to a box that reports when it is told to."""
+
+    connected = True
+
+    def __init__(self) -> None:
+        self.at = 100.0
+        self.link = Link(self)
+        self.link._clock = Awake(lambda: self.at, PAUSE)
+        self.reports(None)
+
+    def register_report_callback(self, call: Any) -> None:
+        self.reports = call
+
+    def after(self, seconds: float) -> None:
+        self.at += seconds
+        self.link.require_heard()
+
+
+def test_time_in_which_this_process_did_not_run_is_no_silence_of_the_box() -> None:
+    """It stood still for a second, and what was reported meanwhile is not read yet; a box that says nothing for long is
+    lost all the same, also for a process that stands still again and again."""
+    box = Reported()
+    box.after(0.2)
+    box.after(1.0)
+    box.reports(None)
+    for _ in range(2):
+        box.after(0.2)
+    with pytest.raises(ConnectionError, match=r"reported nothing for 0\.7 s"):
+        box.after(5.0)
+
+
+def test_an_answer_counts_as_a_report_and_none_does_not() -> None:
+    box = Reported()
+    for _ in range(10):
+        box.after(0.2)
+        box.link.ask("arm1", "take a set-point", lambda: 0)
+    for code in (3, -1):
+        box.after(0.2)
+        with pytest.raises(ConnectionError, match="gave no answer"):
+            box.link.ask("arm1", "take a set-point", lambda code=code: code)  # type: ignore[misc]
+    assert box.link.age == pytest.approx(0.4)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,22 +15,6 @@ HELD = 0.2
 """How much of a pause of its own the guard counts [s]: more than it takes between two looks."""
 SILENT = 0.6
 """How long a laser or a shutter may leave the guard without an answer while light may be out [s]."""
-
-
-class Awake:
-    """A clock that counts only the time in which the guard itself was running: a process that was starved or frozen
-    blames no device for that. It is asked all the time; a pause counts as HELD at most, so that a lost link is noticed
-    also while the process is starved again and again."""
-
-    def __init__(self, clock: Callable[[], float]) -> None:
-        self._clock, self._last, self._now = clock, clock(), 0.0
-
-    def now(self) -> float:
-        """Return the time [s]."""
-        at = self._clock()
-        self._now += min(at - self._last, HELD)
-        self._last = at
-        return self._now
 
 
 def unsafe(entry: SafetyEntry, state: SafetyState) -> str:

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
-from pico.backends.hardware.guard.hearing import Awake, Hearing
+from pico.backends.hardware.guard.hearing import HELD, Hearing
 from pico.backends.hardware.guard.verdict import LaserState, Trip, verdict
+from pico.base.awake import Awake
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import Arm, DeadMan, Laser, SafetyInput, Shutter
 from pico.model.arming import LaserClass
@@ -71,7 +72,7 @@ class Guard:
     """Guards the lasers of one bench from `start` to `close`."""
 
     def __init__(self, watched: Watched, told: Told, clock: Callable[[], float] = time.monotonic) -> None:
-        self._watched, self._told, self._wall, self._clock = watched, told, clock, Awake(clock).now
+        self._watched, self._told, self._wall, self._clock = watched, told, clock, Awake(clock, HELD).now
         self._hearing = Hearing(since=self._clock())
         self._loop: asyncio.AbstractEventLoop | None = None
         self._closing: asyncio.Event | None = None
