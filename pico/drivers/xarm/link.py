@@ -24,7 +24,8 @@ that the box took it, or which fault it has.
 What may go wrong meanwhile is bounded by something shorter. Set-points are 4 ms apart, each waits for the answer to the
 one before, and an arm that gets none stays at the last: it goes on by one set-point, that is 4 mm at 1 m/s. Under a
 move of the box itself (`follow: moves`) it goes on to the end of that move at most, whatever is noticed here. So this
-limit decides how soon a loss is told (a look every 0.2 s and a second one 0.1 s later: 0.9 s in all), not how far an arm goes unheard.
+limit decides how soon a loss is told (a look every 0.2 s and a second one 0.1 s later: 0.9 s in all), not how far an
+arm goes unheard.
 
 What this process did not read because it was not running is no silence: while it stands still it sends nothing, and
 what the box said lies in the socket. See `pico.base.awake.Awake`.
@@ -85,6 +86,10 @@ class Link:
                         raise ConnectionError(f"the control box reported nothing for {within:g} s")
                     self._news.wait(min(_AGAIN, within))
 
+    def excuse(self) -> None:
+        """Count its silence from now on."""
+        self._heard = self._clock.now()
+
     def distrust(self, why: Exception) -> None:
         """Count as lost from now on."""
         self._wrong = str(why) or type(why).__name__
@@ -108,7 +113,7 @@ class Link:
         answer = call()
         code, values = (answer[0], answer[1:]) if isinstance(answer, list | tuple) else (answer, ())
         if code in taken:
-            self._heard = self._clock.now()
+            self.excuse()
             return values[0] if len(values) == 1 else values or None
         if code in _UNANSWERED:
             raise ConnectionError(f"the control box gave no answer when it was asked to {what}")

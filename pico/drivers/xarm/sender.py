@@ -3,9 +3,10 @@
 Set-points are due every 4 ms, and a thread of a Python process that computes beside them gets its turn every 80 ms or
 so. So they are sent by a process that does nothing else (`sending.py`), over a connection of its own. It is started
 once, before the first motion. What it says of itself comes back over a pipe, and both sides say ten times a second that
-they are alive: if this process is gone or stands still, the arm comes to rest on its path; if that process is gone or
-stands still, no set-point comes any more, the arm stands, and the operation fails. A stop needs no such process: this
-one keeps its own connection, and tells the control box to stop over that.
+they are alive. If this process is gone, the arm comes to rest on its path; if it stands still, too, and goes on where
+it was once this process does, within ENDS. If the other process is gone or stands still, no set-point comes any more:
+the arm stands, and the operation fails. A stop needs no such process: this one keeps its own connection, and tells the
+control box to stop over that.
 """
 
 from __future__ import annotations
@@ -29,7 +30,11 @@ from pico.drivers.xarm.streaming import How
 BEAT = 0.1
 """How often each side says that it is alive while the arm moves [s]."""
 SILENT = 0.5
-"""How long the other side may say nothing [s], by the time in which the one that listens was running itself."""
+"""How long the process that sends may say nothing [s], by the time in which this one was running itself."""
+RESTS = 0.3
+"""How long this process may say nothing until the arm comes to rest [s]; three beats."""
+ENDS = 2.0
+"""How long it may say nothing until the motion is over [s]: what the bench looks like by then it does not know."""
 PAUSE = 0.3
 """The most that a pause of the listener itself counts [s]; more than it takes between two looks."""
 STARTING = 4.0

@@ -5,7 +5,9 @@ It reads pickled tuples from standard input, of the process that started it: `("
 `("opened", what is wrong)`, and of each path, by its number, `("sends", number, sent)` ten times a second and once
 `("ended", number, sent, how, why)`, `("fault", number, sent, diagnostics)` or `("lost", number, sent, why)`.
 
-If its input ends, or says nothing for SILENT while an arm moves, the arm comes to rest on its path.
+If its input ends, the arm comes to rest on its path; if it says nothing for RESTS, too, until it says something again.
+Meanwhile the control box is not judged by its silence: of an emulated one, which may live in the process that stands
+still, that would be no wonder, and no arm moves.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from pico.diagnostics import PicoError
 from pico.drivers.xarm.library import library
 from pico.drivers.xarm.link import Link
 from pico.drivers.xarm.path import Path
-from pico.drivers.xarm.sender import BEAT, PAUSE, SILENT
+from pico.drivers.xarm.sender import BEAT, ENDS, PAUSE, RESTS
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
 
 
@@ -57,6 +59,7 @@ class Sending:
         self._link, wrong = None, ""
         try:
             self._link = Link.opened(host, port)
+            self._link.arm.set_timeout(ENDS)  # a box that is silent for less is found out by `_watch`
         except Exception as exc:
             wrong = str(exc) or type(exc).__name__
         self._tell("opened", wrong)
@@ -92,7 +95,10 @@ class Sending:
                 continue
             number, stream = self._now
             self._tell("sends", number, stream.sent)
-            if age > SILENT:
+            stream.rests = age > RESTS
+            if stream.rests:
+                stream.link.excuse()
+            if age > ENDS:
                 stream.why = f"PICO itself did not run for {age:.1f} s"
                 stream.end("halted")
             try:

@@ -53,6 +53,8 @@ class Stream:
         """Set-points that were taken."""
         self.why = ""
         """Why it came to rest, if it was not asked to."""
+        self.rests = False
+        """Whether it comes to rest on its path for now."""
         self._name, self.link, self._path, self._doing, self._pace = name, link, path, doing, pace
         self._wanted: How = "moves"
         self._run: Callable[[], None] = self._follow if set_points else self._move
@@ -86,17 +88,17 @@ class Stream:
 
     def _follow(self) -> None:
         period = PERIOD * self._pace
-        place, braking, due = 0.0, None, time.monotonic()
+        place, braking, due = 0.0, 0.0, time.monotonic()
         before = due
         while True:
             now = time.monotonic()
             passed = min((now - before) * self._pace, _LATE * period, _LEAP)
             before = now
-            if self._wanted != "moves":
-                braking = 0.0 if braking is None else braking + passed
-            place += passed * (1.0 if braking is None else rate(braking))
+            ends = self._wanted != "moves"
+            place += passed * rate(braking)
+            braking = min(BRAKE, braking + passed) if ends or self.rests else max(0.0, braking - passed)
             self._set(self._path.at(place))
-            if place >= self._path.seconds or (braking is not None and rate(braking) == 0.0):
+            if place >= self._path.seconds or (ends and rate(braking) == 0.0):
                 break
             due = max(due + PERIOD, now - _LATE * PERIOD)
             time.sleep(max(0.0, due - time.monotonic()))

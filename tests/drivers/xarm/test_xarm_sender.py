@@ -78,8 +78,45 @@ def test_an_arm_comes_to_rest_on_its_path_while_nobody_says_that_it_is_wanted(
 ) -> None:
     monkeypatch.setattr(sender, "BEAT", 30.0)  # this process stands still, as far as the other one hears
     told = rig.do(_meanwhile(rig, lambda: None))
-    assert re.search(r"arm1 was halted on its way during op3: move lx_100: PICO itself did not run for 0\.\d s", told)
+    assert re.search(r"arm1 was halted on its way during op3: move lx_100: PICO itself did not run for 2\.\d s", told)
     assert rig.emulator.box.error == 0 and still(rig)
+
+
+def hold_interpreter(seconds: float) -> None:
+    """Let no other thread of this process run: a call in C that gives the interpreter to nobody."""
+    began = time.perf_counter()
+    sum(range(1_000_000))
+    sum(range(int(1_000_000 * seconds / (time.perf_counter() - began))))
+
+
+@pytest.mark.parametrize("how", ["silent", "busy"])
+def test_an_arm_goes_on_where_it_was_once_it_is_wanted_again(rig: Rig, how: str) -> None:
+    """Nothing is heard for a second: of a process that has nobody who speaks, or of one in which nothing else runs, the
+    emulator included."""
+
+    async def interrupted() -> list[float]:
+        path = rig.turn(1, 0.6 if rig.emulator.joints[0] < 0.5 else -0.6, 12.0)
+        moving = asyncio.create_task(rig.arm.follow(*path))
+        while abs(rig.emulator.joints[0] - path[1][0][0]) < 0.05:
+            await asyncio.sleep(0.002)
+        sending, rest = rig.arm._sender, []
+        assert sending is not None
+        if how == "busy":
+            hold_interpreter(0.9)
+        else:
+            say = sending._next
+            sending._next = lambda: (time.sleep(1.2), say())[1]  # type: ignore[func-returns-value,method-assign]
+            await asyncio.sleep(0.8)
+            rest = [rig.emulator.joints[0]]
+            await asyncio.sleep(0.1)
+            rest.append(rig.emulator.joints[0])
+            del sending._next
+        return [(await moving).joints[0], path[1][-1][0], *rest]
+
+    ended, goal, *rest = rig.do(interrupted())
+    assert ended == pytest.approx(goal, abs=2e-3)
+    if rest:
+        assert rest[0] == pytest.approx(rest[1], abs=1e-9) and abs(rest[0] - goal) > 0.05
 
 
 def test_one_process_serves_a_session_and_says_how_much_it_sent(rig: Rig) -> None:
