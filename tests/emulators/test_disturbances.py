@@ -149,6 +149,17 @@ def test_a_scenario_that_is_wrong_is_told_at_its_line_and_keeps_only_the_emulate
     scenario.write_text(head + "devices:\n  x: {settle_error: 0.1}\n")
     with pytest.raises(PicoError, match="no device `x`"):
         emulation_of(tmp_path, found.setup)
+    for wrong, said in (
+        ("{x: 1}", "`y`"),
+        ("{x: 1, y: 2, radius: 0}", "above 0"),
+        ("{x: 1, y: 2, arrives: 9, leaves: 9}", "before"),
+    ):
+        scenario.write_text(f"{head}people:\n  visitor: {wrong}\n")
+        with pytest.raises(PicoError, match=said):
+            emulation_of(tmp_path, found.setup)
+    scenario.write_text(head + "people:\n  visitor: {x: 1, y: -20 cm, arrives: 2}\n")
+    (visitor,) = emulation_of(tmp_path, found.setup).people.values()
+    assert (visitor.y, visitor.is_there(1.9), visitor.is_there(1e9)) == (-200.0, False, True)
     scenario.write_text(head + "seed: 5\n")
     assert emulation_of(tmp_path, found.setup).seed == 5
 

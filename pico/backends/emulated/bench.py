@@ -29,7 +29,7 @@ def brought_up(
     whose `entries` lead to them, and whose `failed` have none. Raises PicoError for a world or a
     scenario that can't be read."""
     pace, scenario = _pace(), emulation_of(place.root, setup)
-    world = EmulatedWorld(setup, place, pace)
+    world = EmulatedWorld(setup, place, pace, people=tuple(scenario.people.values()))
     eyes = SharedEyes(world)
     eyes.open()
 

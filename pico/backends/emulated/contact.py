@@ -5,11 +5,14 @@ from __future__ import annotations
 
 import math
 from collections import Counter
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 from pico.backends.sim.world import World
-from pico.model.catalog import Geometry
+from pico.model.catalog import Footprint, Geometry
+from pico.model.instruments.emulation import Visitor
+from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_pose
 from pico.motion.reach import grasp_height
@@ -37,17 +40,22 @@ class Contacts:
     """The surroundings of the arms of one bench."""
 
     setup: Setup
+    people: Collection[Visitor] = ()
+    """The persons who are at the bench at one time or another."""
     _scenes: dict[str, Scene] = field(default_factory=dict)
 
-    def free_share(self, world: World, robot: str, before: Joints, after: Joints) -> tuple[float, int]:
+    def free_share(
+        self, world: World, robot: str, before: Joints, after: Joints, present: Collection[Visitor] = ()
+    ) -> tuple[float, int]:
         """Return which share (0 to 1) of the straight way in joint space from `before` to `after` [rad] the arm can
-        move, and the controller error that ends it: 31, 22 for a collision with itself, or 0 at the end of the way.
+        move, and the controller error that ends it: 31, 22 for a collision with itself, or 0 at the end of the way;
+        `present`: who is there now.
 
         An arm that overlaps with something already, as after a collision, may move so that it gets no deeper."""
         way = _REACH * sum(abs(b - a) for a, b in zip(before, after, strict=True))
         if way < 1e-9:
             return 1.0, 0
-        scene = self._arranged(world, robot)
+        scene = self._arranged(world, robot, present)
         slack, _ = self._look(scene, world, robot, before)
         deepest, gone = _allowed(slack), 0.0
         while gone < way:
@@ -72,9 +80,10 @@ class Contacts:
                 return above, ABNORMAL_CURRENT
         return slack, fault
 
-    def _arranged(self, world: World, robot: str) -> Scene:
-        """Return the scene of an arm as the table is now."""
+    def _arranged(self, world: World, robot: str, present: Collection[Visitor]) -> Scene:
+        """Return the scene of an arm as the table is now, with who is there."""
         standing = self._standing(world)
+        standing |= {f"person/{n}": StandingObject(Pose(one.x, one.y), _shape(one)) for n, one in enumerate(present)}
         scene = self._scenes.get(robot)
         if scene is None or scene.lacks(standing.values()):
             scene = self._scenes[robot] = self._scene(robot, standing)
@@ -106,6 +115,7 @@ class Contacts:
         bare = replace(lab, keep_out={}, margins=replace(lab.margins, body=0.0, fingers=0.0))
         pool = Counter(thing.geometry for thing in standing.values())
         pool |= Counter(self.setup.type_of(name).geometry for name in lab.inventory)
+        pool |= Counter(_shape(one) for one in self.people)
         return Scene(replace(self.setup, lab=bare), robot, pool)
 
     def _grasp_yaw(self, world: World, robot: str) -> float:
@@ -117,6 +127,11 @@ class Contacts:
             return 0.0
         tool = tool_pose(self.setup.lab.robots[robot], now.joints)[3]
         return min(grasp.yaws, key=lambda yaw: abs(math.remainder(pose.yaw + yaw - tool, 180.0)))
+
+
+def _shape(person: Visitor) -> Geometry:
+    """Return a person as a cylinder that stands on the level of the table."""
+    return Geometry(footprint=Footprint(disc=person.radius), height=person.height, mass=0.0)
 
 
 def _allowed(slack: float) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from contextlib import suppress
 from dataclasses import replace
 
@@ -16,6 +16,7 @@ from pico.backends.sim.world import World, put_down
 from pico.base.state_files import DEVICES
 from pico.diagnostics import PicoError
 from pico.geometry.seat import PlacementError, injected
+from pico.model.instruments.emulation import Visitor
 from pico.model.observation import ObservedValue
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
@@ -43,11 +44,13 @@ KEPT = 0.05
 
 
 class EmulatedWorld:
-    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's. Called from any thread."""
+    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's; `people` come and go by it.
+    Called from any thread."""
 
     def __init__(
-        self, setup: Setup, place: BenchPlace, pace: float = 1.0, wall: Callable[[], float] = time.monotonic
-    ) -> None:
+        self, setup: Setup, place: BenchPlace, pace: float = 1.0, wall: Callable[[], float] = time.monotonic,
+        people: Collection[Visitor] = (),
+    ) -> None:  # fmt: skip
         """Raises PicoError where its file can't be read."""
         self.setup, self.place, self.pace = setup, place, pace
         self._wall, self._began = wall, wall()
@@ -57,6 +60,7 @@ class EmulatedWorld:
         self._devices = Settings(place, DEVICES)
         self._pulled: set[str] = set()
         self._contacts: Contacts | None = None
+        self._people = people
         self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
@@ -100,13 +104,13 @@ class EmulatedWorld:
         that ends it or 0; `load`: of tool and part, as the control box reckons with it [kg]."""
         with self._lock:
             if self._contacts is None:
-                self._contacts = Contacts(self.setup)
+                self._contacts = Contacts(self.setup, self._people)
             arm, world = self.setup.lab.robots[robot], self._world
             holding = world.robots[robot].holding
             lifts = holding and tool_pose(arm, after)[2] > tool_pose(arm, before)[2]
             if holding and lifts and abs(load - GRIPPER_MASS - self.setup.type_of(holding).geometry.mass) > LOAD_ERROR:
                 return 0.0, ABNORMAL_CURRENT
-            return self._contacts.free_share(world, robot, before, after)
+            return self._contacts.free_share(world, robot, before, after, self.present())
 
     def fingers(self, robot: str, joints: Joints, wanted: float, now: float) -> float:
         """Return how far apart [mm] the fingers of a robot come to rest that are at `now` and go to `wanted`: at the
@@ -172,9 +176,17 @@ class EmulatedWorld:
         """Pull a safety input by the device that reads it, or put it back; not kept."""
         (self._pulled.add if pulled else self._pulled.discard)(device)
 
+    def present(self) -> tuple[Visitor, ...]:
+        """Return the people of the scenario who are at the bench now."""
+        seconds = (self._wall() - self._began) * self.pace
+        return tuple(one for one in self._people if one.is_there(seconds))
+
     def safe(self, device: str) -> bool:
-        """Return whether a safety input is as it should be: nobody is at the table, and nobody pulled it."""
-        return not self._world.person and device not in self._pulled
+        """Return whether a safety input is as it should be: nobody is at the table, and nobody pulled it. Of the people
+        of the scenario only curtains know."""
+        inputs = self.setup.wiring.safety_inputs.values() if self.setup.wiring else ()
+        notices = any(one.kind == "curtain" and one.device == device for one in inputs)
+        return not (self._world.person or device in self._pulled or (notices and self.present()))
 
     def recalled(self, device: str, what: str) -> Value | None:
         """Return what a device keeps of itself, as over a loss of its link; None where it was told nothing."""

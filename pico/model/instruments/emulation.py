@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import field
 
+from pico.model.quantities import Length
 from pico.model.record import record
 
 
@@ -44,9 +46,36 @@ class Disturbance:
 
 
 @record
+class Visitor:
+    """A person at the emulated bench for a while: an upright cylinder that arms hit and light curtains notice."""
+
+    x: Length
+    y: Length
+    """Where its axis stands in the table frame [mm]; beside the table, too."""
+    radius: Length = 200.0
+    height: Length = 800.0
+    """How far it rises above the table top [mm]."""
+    arrives: float = 0.0
+    leaves: float = math.inf
+    """From when until when it is there, in seconds of the bench's clock since its emulators were started."""
+
+    def __post_init__(self) -> None:
+        if not (self.radius > 0 and self.height > 0):
+            raise ValueError("`radius` and `height` are above 0")
+        if not 0 <= self.arrives < self.leaves:
+            raise ValueError("`arrives` is not negative, and before `leaves`")
+
+    def is_there(self, seconds: float) -> bool:
+        """Return whether it is at the bench so long after the emulators were started [s]."""
+        return self.arrives <= seconds < self.leaves
+
+
+@record
 class Emulation:
-    """A scenario of the emulated bench of a lab: what goes wrong with each device, drawn from `seed`."""
+    """A scenario of the emulated bench of a lab: what goes wrong with each device, drawn from `seed`, and who comes to
+    the table when."""
 
     lab: str
     seed: int = 1
     devices: Mapping[str, Disturbance] = field(default_factory=dict)
+    people: Mapping[str, Visitor] = field(default_factory=dict)

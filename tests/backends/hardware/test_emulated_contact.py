@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import replace
 from pathlib import Path
 
@@ -15,9 +16,11 @@ from pico.backends.emulated.world import EmulatedWorld
 from pico.emulators.xarm.control_box import READY
 from pico.emulators.xarm.server import XArmEmulator
 from pico.model.catalog import Footprint
+from pico.model.instruments.emulation import Visitor
 from pico.model.observation import UnknownObject
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.model.wiring import SafetyEntry
 from pico.motion.arms import ArmMotion
 from pico.motion.kinematics import tool_pose
 from pico.motion.types import Joints, MovePath, StandingObject
@@ -46,8 +49,9 @@ def path(setup: Setup) -> MovePath:
 class Arm:
     """An emulated arm before its world, without any wire and at times of its own."""
 
-    def __init__(self, setup: Setup, folder: Path) -> None:
-        self.world = EmulatedWorld(setup, bench_at(folder, "emulated"))
+    def __init__(self, setup: Setup, folder: Path, people: Collection[Visitor] = ()) -> None:
+        self.clock = 0.0
+        self.world = EmulatedWorld(setup, bench_at(folder, "emulated"), wall=lambda: self.clock, people=people)
         behind = OfArm(self.world, "arm1")
         self.emulator = XArmEmulator(
             joints=behind.read("joints"), moved=behind.read("moved"), way=behind.read("way"),
@@ -133,3 +137,41 @@ def test_a_part_that_is_lifted_with_a_load_far_from_its_own_is_an_abnormal_curre
     arm.box.settings.load = (4.0, 0.0, 0.0, 0.0)
     assert arm.follow(path, "grip") == 0, "nothing is lifted yet"
     assert arm.follow(path) == 31
+
+
+@pytest.mark.parametrize(("clock", "error"), [(0.0, 0), (7.0, 31), (11.0, 0)])
+def test_a_person_in_the_way_is_hit_while_it_is_there(
+    setup: Setup, path: MovePath, tmp_path: Path, clock: float, error: int
+) -> None:
+    over = next(s for s in path.segments if s.name == "lower").joints[-1]
+    x, y = tool_pose(setup.lab.robots["arm1"], over)[:2]
+    arm = Arm(setup, tmp_path, [Visitor(x=x, y=y + 150, radius=130, height=700, arrives=5, leaves=10)])
+    arm.clock = clock
+    assert arm.follow(path) == error
+    put = arm.world.world().components["lx_125"].pose
+    assert put is not None and (put.distance(GOAL) < 1.0) == (error == 0)
+    if error:
+        arm.clock = 20.0
+        arm.start()
+        assert arm.go(path.segments[0].joints[0]) == 0, "the person has left"
+
+
+def test_a_person_beside_the_table_is_hit_by_an_arm_that_reaches_over_its_edge(setup: Setup, tmp_path: Path) -> None:
+    mount = setup.lab.robots["arm1"].mount
+    reach = (0.0, 0.2, 0.0, 0.9, 0.0, 0.7, 0.0)
+    x, y = tool_pose(setup.lab.robots["arm1"], (math.pi, *reach[1:]))[:2]
+    outside = Visitor(x=x, y=y, radius=100, height=900)
+    assert (x - mount.x) ** 2 + (y - mount.y) ** 2 > 300**2
+    turned = (Arm(setup, tmp_path / str(n), people) for n, people in enumerate(([], [outside])))
+    assert [[one.go(reach), one.go((math.pi, *reach[1:]))][-1] for one in turned] == [0, 31]
+
+
+def test_a_curtain_notices_a_person_and_a_door_does_not(setup: Setup, tmp_path: Path) -> None:
+    assert setup.wiring is not None
+    inputs = {"veil": SafetyEntry(kind="curtain", device="veil"), "door": SafetyEntry(kind="door", device="box")}
+    wired = replace(setup, wiring=replace(setup.wiring, safety_inputs=inputs))
+    clock = [0.0]
+    people = [Visitor(x=0, y=0, arrives=5, leaves=10)]
+    world = EmulatedWorld(wired, bench_at(tmp_path, "emulated"), wall=lambda: clock[0], people=people)
+    for clock[0], safe in ((0.0, True), (6.0, False), (11.0, True)):
+        assert (world.safe("veil"), world.safe("box")) == (safe, True)
