@@ -48,9 +48,9 @@ class ArmState:
 @record
 class Grip:
     """What a gripper found when it came to rest: how far its fingers are apart [mm], and whether something keeps them
-    from where they were to go; None where it can't tell."""
+    from where they were to go; None where it can't tell. One of the two it tells."""
 
-    width: float
+    width: float | None
     holds: bool | None
 
 
@@ -162,6 +162,15 @@ class Gripper(Instrument, Protocol):
 
     async def grip(self) -> Grip:
         """Return how the fingers are, moving nothing."""
+        ...
+
+
+@runtime_checkable
+class Clamp(Protocol):
+    """A gripper that only holds or lets go, as a vacuum cup or a pneumatic hand, and knows no width between."""
+
+    async def hold(self, on: bool) -> Grip:
+        """Hold what is there, or let go, and say what was found once that is over."""
         ...
 
 

@@ -22,7 +22,7 @@ from pico.diagnostics import PicoError, error
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.line import Line
-from pico.drivers.protocols import Identity, SafetyState
+from pico.drivers.protocols import Grip, Identity, SafetyState
 from pico.model.instruments.declaration import Setting
 from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
@@ -180,6 +180,28 @@ class SwitchedLamp(_Switch):
         return bool(await self._set("shine" if on else "go out", on))
 
 
+class SwitchedGripper(_Switch):
+    """A vacuum cup or a pneumatic hand, with a sensor of its own that says whether something is held."""
+
+    prop, _sensor = "holds", ".sensor"
+
+    async def hold(self, on: bool) -> Grip:
+        """Hold or let go, and return what its sensor says once it is so, or has had its time."""
+        await self._set("hold" if on else "let go", on)
+        ends = time.monotonic() + _TRAVEL
+        while (found := await self.grip()).holds is not on and time.monotonic() < ends:
+            await asyncio.sleep(0.02)
+        return found
+
+    async def move_to(self, width: float, *, force: float | None = None) -> Grip:
+        """Raise PicoError: it knows no width."""
+        text = f"{self.name} holds or lets go, and can't bring its fingers {width:g} mm apart"
+        raise PicoError(error("gripper", text, address=self.name))
+
+    async def grip(self) -> Grip:
+        return Grip(width=None, holds=await self._read("tell whether it holds something", self._at + self._sensor))
+
+
 class SwitchedInput(_Switch):
     """A safety input."""
 
@@ -219,4 +241,5 @@ def _driver(kind: str, made: Any, prop: str) -> Driver:
 SHUTTER = _driver("shutter", SwitchedShutter, "open")
 LASER = _driver("laser", SwitchedLaser, "emission")
 LAMP = _driver("lamp", SwitchedLamp, "on")
+GRIPPER = _driver("gripper", SwitchedGripper, "holds")
 INPUT = _driver("safety input", SwitchedInput, "safe")

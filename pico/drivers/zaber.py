@@ -42,11 +42,13 @@ _NO_ZERO = ("WR", "WH")
 _POLL = 0.02
 _FLAG = re.compile("[FWN][A-Z]")
 _WARNING = re.compile(r"--|[A-Z][A-Z0-9]")
+SPEED_UNIT, ACCELERATION_UNIT = 1.6384, 1.6384e-4
+"""What a count a second, and a count a second squared, are in the numbers of the protocol."""
 _REACHED = 2.0
 """How many counts from where it was sent a stage may come to rest."""
 
 
-def _opened(entry: DeviceEntry) -> Connection:
+def opened(entry: DeviceEntry) -> Connection:
     from zaber_motion.ascii import Connection
 
     port = entry.address["port"]
@@ -102,12 +104,17 @@ class Stage:
         """Return what it reads of its properties, with the replies."""
         return {"position": await self.readout()}
 
-    async def move_to(self, position: float) -> float:
-        """Drive there, in the unit of its counts. Raises PicoError for one that was not homed: its counts begin
+    async def move_to(self, position: float, *, speed: float | None = None, acceleration: float | None = None) -> float:
+        """Drive there, in the unit of its counts; with `speed` and `acceleration`, for this move only, no faster [unit
+        per s, unit per s2] (firmware 7.25 and later). Raises PicoError for one that was not homed: its counts begin
         anywhere."""
         if self._limits:
             require_within(self.name, "position", position, self._limits, self._unit)
-        at = await self._moved(f"drive to {position:g} {self._unit}", f"move abs {round(position * self._counts)}")
+        command = f"move abs {round(position * self._counts)}"
+        if speed is not None and acceleration is not None:
+            limits = speed * SPEED_UNIT, acceleration * ACCELERATION_UNIT
+            command += "".join(f" {max(1, round(limit * abs(self._counts)))}" for limit in limits)
+        at = await self._moved(f"drive to {position:g} {self._unit}", command)
         if abs(at - position) * abs(self._counts) > _REACHED:
             text = f"{self.name} came to rest at {at:.6g}, and was to drive to {position:g} {self._unit}"
             raise PicoError(error("device-missed", text, address=self.name))
@@ -196,7 +203,7 @@ class Stage:
 
 
 STAGE = Driver(
-    kind="axis", made=Stage, opened=_opened, closed=lambda link: link.close(),
+    kind="axis", made=Stage, opened=opened, closed=lambda link: link.close(),
     address={"host": "its IP address, where it has one", "port": "the TCP port, or the serial port",
              "device": "its number in the chain", "axis": "the number of its axis"},
     bus=("host", "port"), usual={"device": "1", "axis": "1"}, properties={"position": "mm"},

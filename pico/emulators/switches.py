@@ -10,7 +10,7 @@ from pico.emulators.behind import Behind, Emulator
 from pico.emulators.serving import TcpServed
 from pico.model.wiring import DeviceEntry
 
-PROPERTIES = {"shutter": "open", "laser": "emission", "lamp": "on", "input": "safe"}
+PROPERTIES = {"shutter": "open", "laser": "emission", "lamp": "on", "input": "safe", "gripper": "holds"}
 """What a switch is behind which stands what, by the last word of its driver's name."""
 
 

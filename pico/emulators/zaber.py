@@ -4,7 +4,10 @@ by `@device axis id flag status warning data`, both with a checksum where the ho
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
+from pico.drivers.zaber import SPEED_UNIT
+from pico.drivers.zaber_gantry import AXES, of_axis
 from pico.emulators.behind import Behind, Emulator
 from pico.emulators.motion import Motion
 from pico.emulators.serving import TcpServed
@@ -12,6 +15,8 @@ from pico.model.wiring import DeviceEntry
 
 TRAVEL = 101.6
 """How far a stage goes without a scenario [mm]."""
+GANTRY = "zaber.gantry"
+"""The driver whose entry is several stages."""
 DEVICE_ID = 50081
 """Of an X-LSM stage."""
 
@@ -43,12 +48,14 @@ class Stage:
         match words:
             case ["get", setting] if (found := self._setting(setting, now)) is not None:
                 return "OK", found
-            case ["move", "abs", counts] if self._homed:
+            case ["move", "abs", counts, *limits] if self._homed and all(one.isdigit() for one in limits):
                 position = int(counts) / self._counts
                 low, high = self._travel()
                 if not low <= position <= high:
                     return "RJ", "BADDATA"
-                self._go(position - self._slip, now)
+                self._go(
+                    position - self._slip, now, int(limits[0]) / SPEED_UNIT / abs(self._counts) if limits else None
+                )
             case ["home"]:
                 self._homed = True
                 self._behind.write("homed", True)
@@ -88,13 +95,13 @@ class Stage:
         }  # fmt: skip
         return known.get(name)
 
-    def _go(self, position: float, now: float) -> None:
+    def _go(self, position: float, now: float, speed: float | None = None) -> None:
         stuck = self._behind.read("stuck")
         begin = self._at(now)
         lost = (position - begin) * (self._behind.read("lost_steps") or 0.0)
         self._slip += lost
         end = position - lost + (self._behind.read("settle_error") or 0.0)
-        self._motion = Motion(begin, end, now, self._speed, stuck)
+        self._motion = Motion(begin, end, now, speed or self._speed, stuck)
 
     def _go_on(self, now: float) -> None:
         if self._motion is None:
@@ -106,6 +113,22 @@ class Stage:
 
     def _at(self, now: float) -> float:
         return self._motion.at(now) if self._motion else float(self._behind.read("position") or 0.0)
+
+
+class OfAxis:
+    """What is behind one stage of a gantry, of what is behind all of it: there its properties are `x position`, ..."""
+
+    def __init__(self, behind: Behind, axis: str) -> None:
+        self._behind, self._axis = behind, axis
+
+    def read(self, what: str) -> Any:
+        return self._behind.read(f"{self._axis} {what}")
+
+    def write(self, what: str, value: Any) -> None:
+        self._behind.write(f"{self._axis} {what}", value)
+
+    def now(self) -> float:
+        return self._behind.now()
 
 
 class Chain:
@@ -146,7 +169,14 @@ def _checksum(text: str) -> int:
 
 
 def _started(devices: Mapping[str, tuple[DeviceEntry, Behind]]) -> TcpServed:
-    chain = {int(entry.address.get("device", 1)): Stage(entry, behind) for entry, behind in devices.values()}
+    chain: dict[int, Stage] = {}
+    for entry, behind in devices.values():
+        if entry.driver == GANTRY:
+            for axis in AXES:
+                one = of_axis(entry, axis)
+                chain[int(one.address["device"])] = Stage(one, OfAxis(behind, axis))
+        else:
+            chain[int(entry.address.get("device", 1))] = Stage(entry, behind)
     served = TcpServed(lambda: Chain(chain))
 
     def reboot() -> None:

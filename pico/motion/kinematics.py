@@ -120,6 +120,13 @@ def tool_pose(robot: Robot, joints: Joints) -> tuple[float, float, float, float]
     return mount.x + c * x - s * y, mount.y + s * x + c * y, mount.z + z, math.remainder(yaw, 360.0)
 
 
+def tool_point(robot: Robot, joints: Joints) -> tuple[float, float, float]:
+    """Return where the tool center point of an arm or a gantry is in the table frame [mm]."""
+    if robot.model == "gantry":
+        return 1000 * joints[0], 1000 * joints[1], 1000 * joints[2]
+    return tool_pose(robot, joints)[:3]
+
+
 def tool_of(robot: Robot, joints: Joints) -> Pose:
     """Return where the tool of an arm or a gantry is, seen from above [mm, deg]."""
     if robot.model == "gantry":

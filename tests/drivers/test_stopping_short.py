@@ -437,7 +437,7 @@ def test_a_link_to_stages_checks_what_is_said_over_it(host: str, monkeypatch: py
     made, opened = SimpleNamespace(), list[tuple[Any, ...]]()
     for name in ("open_tcp", "open_serial_port"):
         monkeypatch.setattr(Connection, name, lambda *given, name=name: (opened.append((name, *given)), made)[1])
-    link = zaber._opened(DeviceEntry(driver="zaber.stage", address={"host": host, "port": "77"}))
+    link = zaber.opened(DeviceEntry(driver="zaber.stage", address={"host": host, "port": "77"}))
     assert link is made and made.checksum_enabled is True and made.default_request_timeout == zaber.REPLY
     assert opened == [("open_tcp", "10.0.0.7", 77) if host else ("open_serial_port", "77")]
 

@@ -11,6 +11,7 @@ from pico.backends.conversions import conversion_of
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
+from pico.drivers.zaber_gantry import AXES, SCALE
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
@@ -22,6 +23,10 @@ from pico.motion.types import Joints
 if TYPE_CHECKING:
     from pico.backends.sim.sight import Posed
     from pico.backends.sim.world import World
+
+
+HIGHEST = 1000.0
+"""How high the hand of an emulated gantry rises [mm]."""
 
 
 class OfArm:
@@ -63,6 +68,43 @@ class OfArm:
         """Which share of a step the arm can move, with the load that was set, and the error of what ends it."""
         begin, end = (self._world.nominal(self._robot, joints) for joints in (before, after))
         return self._world.way(self._robot, begin, end, self._own["emulator"].box.settings.load[0])
+
+
+class OfGantry:
+    """A gantry of stages, or its hand: of each of its axes `position` [mm, deg], `travel` and `homed`, by names such as
+    `x position`; `holds`: whether something is in its hand."""
+
+    def __init__(self, world: EmulatedWorld, robot: str) -> None:
+        self._world, self._robot = world, robot
+
+    def now(self) -> float:
+        return self._world.now()
+
+    def read(self, what: str) -> Any:
+        """What a stage or the hand finds."""
+        if what == "holds":
+            return self._world.holding(self._robot) is not None
+        axis, _, prop = what.partition(" ")
+        if axis not in AXES:
+            return None
+        joint = AXES.index(axis)
+        if prop == "position":
+            return self._world.joints(self._robot)[joint] * SCALE[joint]
+        if prop == "travel":
+            lab = self._world.setup.lab
+            return ((0.0, lab.table.size[0]), (0.0, lab.table.size[1]), (0.0, HIGHEST), (-360.0, 360.0))[joint]
+        return self._world.recalled(self._robot, f"{axis} unhomed") is None if prop == "homed" else None
+
+    def write(self, what: str, value: Any) -> None:
+        """Let a stage be at a position, or the hand hold or let go."""
+        if what == "holds":
+            self._world.hold(self._robot, bool(value))
+            return
+        axis, _, prop = what.partition(" ")
+        if prop == "position":
+            self._world.drive(self._robot, AXES.index(axis), value / SCALE[AXES.index(axis)])
+        elif prop == "homed":
+            self._world.remember(self._robot, f"{axis} unhomed", "" if value else "it had no power")
 
 
 class OfPart:

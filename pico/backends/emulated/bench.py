@@ -6,7 +6,7 @@ import os
 import sys
 from dataclasses import replace
 
-from pico.backends.emulated.behind import OfArm, OfCamera, OfInput, OfPart, SharedEyes
+from pico.backends.emulated.behind import OfArm, OfCamera, OfGantry, OfInput, OfPart, SharedEyes
 from pico.backends.emulated.world import EmulatedWorld
 from pico.diagnostics import PicoError, error
 from pico.drivers.registry import driver
@@ -36,7 +36,7 @@ def brought_up(
     def behind(name: str, entry: DeviceEntry) -> Behind:
         about, of = driver(entry.driver), entry.of or name
         if of in setup.lab.robots:
-            return OfArm(world, of)
+            return OfGantry(world, of) if setup.lab.robots[of].model == "gantry" else OfArm(world, of)
         if kind_of(about.kind).role == "safety input":
             return OfInput(world, name)
         if of in setup.lab.inventory:
@@ -50,8 +50,9 @@ def brought_up(
 
 
 def _paced(entry: DeviceEntry, pace: float) -> DeviceEntry:
-    """Return the entry of an arm with the pace at which it is driven: its driver sends set-points by its own clock."""
-    if pace == 1.0 or kind_of(driver(entry.driver).kind).role != "arm":
+    """Return the entry of an arm with the pace at which it is driven, if its driver sends set-points by its own
+    clock."""
+    if pace == 1.0 or "pace" not in (driver(entry.driver).settings or {}):
         return entry
     return replace(entry, settings={**entry.settings, "pace": pace})
 

@@ -3,6 +3,7 @@ axes, light. Kept as `world.json` in the folder of the bench."""
 
 from __future__ import annotations
 
+import math
 import threading
 import time
 from collections.abc import Callable, Collection
@@ -21,7 +22,7 @@ from pico.model.observation import ObservedValue
 from pico.model.pose import Pose, angle_between
 from pico.model.quantities import Value
 from pico.model.setup import Setup
-from pico.motion.kinematics import tool_pose
+from pico.motion.kinematics import tool_of, tool_point, tool_pose
 from pico.motion.reach import grasp_height
 from pico.motion.shapes import FINGER_MASS, PALM_MASS
 from pico.motion.types import Joints
@@ -129,6 +130,28 @@ class EmulatedWorld:
             self.store()
             return reached
 
+    def hold(self, robot: str, on: bool) -> None:
+        """Let a hand that knows no width hold what is there, or let go of what it holds."""
+        with self._lock:
+            now = self._world.robots[robot]
+            if on and now.holding is None and (there := self._between(robot, now.joints, math.inf)) is not None:
+                self._take(robot, now.joints, there)
+            elif not on and now.holding is not None:
+                self._let_go(robot, now.joints, now.holding)
+            self.store()
+
+    def drive(self, robot: str, joint: int, value: float) -> None:
+        """Let one joint of a robot be at a value [m, rad], with what it holds."""
+        with self._lock:
+            joints = list(self._world.robots[robot].joints)
+            joints[joint] = value
+            self.moved(robot, tuple(joints))
+
+    def holding(self, robot: str) -> str | None:
+        """Return the part in the hand of a robot."""
+        with self._lock:
+            return self._world.robots[robot].holding
+
     def width(self, robot: str) -> float:
         """Return how far apart the fingers of a robot are [mm]."""
         with self._lock:
@@ -211,7 +234,7 @@ class EmulatedWorld:
     def _between(self, robot: str, joints: Joints, opening: float) -> str | None:
         """Return the part that stands between the fingers of a robot; None where none does."""
         arm, tool = self.setup.lab.robots[robot], self._tool(robot, joints)
-        height = tool_pose(arm, joints)[2]
+        height = tool_point(arm, joints)[2]
         for name, body in self._world.components.items():
             if name not in self.setup.lab.inventory or body.presence != "seen" or body.pose is None:
                 continue
@@ -221,7 +244,8 @@ class EmulatedWorld:
             off = abs(grasp_height(arm, geometry) - height)
             jaws = (angle_between(body.pose.yaw + yaw, tool.yaw) for yaw in geometry.grasp.yaws)
             along = min(min(abs(turn), 180 - abs(turn)) for turn in jaws)
-            if tool.distance(body.pose) <= BETWEEN and off <= BETWEEN and along <= ALONG:
+            turned = along > ALONG and arm.gripper.fingers != "none"
+            if tool.distance(body.pose) <= BETWEEN and off <= BETWEEN and not turned:
                 return name
         return None
 
@@ -236,7 +260,7 @@ class EmulatedWorld:
         """Let a part stand where the hand is, or lie there where that is too high above the table."""
         arm, geometry = self.setup.lab.robots[robot], self.setup.type_of(name).geometry
         pose = self._tool(robot, joints).compose(self._held.pop(robot))
-        high = tool_pose(arm, joints)[2] - grasp_height(arm, geometry) > DROP
+        high = tool_point(arm, joints)[2] - grasp_height(arm, geometry) > DROP
         errs = injected(self.setup, name, self._learned, 0.0)
         at, seat = put_down(self.setup, self._world, name, pose, errs)
         self._world = self._world.with_body(
@@ -252,7 +276,8 @@ class EmulatedWorld:
 
     def _tool(self, robot: str, joints: Joints) -> Pose:
         """Where the tool of an arm truly is, seen from above."""
-        return self._arms[robot].tool(joints, None)
+        arm = self._arms.get(robot)
+        return arm.tool(joints, None) if arm else tool_of(self.setup.lab.robots[robot], joints)
 
     def _from_tool(self, robot: str, joints: Joints, pose: Pose) -> Pose:
         return self._tool(robot, joints).inverse().compose(pose)

@@ -253,8 +253,8 @@ class HardwareDevice:
     def arms(self) -> dict[str, TwinArm]:
         """Return the arms as calibration knows them."""
         known = known_arms(self.place.root)
-        return {name: TwinArm(robot, known=known.get(name, NOMINAL)) for name, robot in self.setup.lab.robots.items()
-                if robot.model == "xarm7"}  # fmt: skip
+        robots = self.setup.lab.robots.items()
+        return {name: TwinArm(robot, known=known.get(name, NOMINAL)) for name, robot in robots}
 
     async def peek(self, component: str, measurable: str) -> Measurement:
         """Return what a measurement would give now, of which nothing is assured; raises PicoError."""

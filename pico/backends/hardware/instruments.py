@@ -190,7 +190,7 @@ def require_whole(setup: Setup, entries: Mapping[str, DeviceEntry], kinds: Mappi
     for name, robot in sorted(setup.lab.robots.items()):
         if ("arm", name) not in has:
             missing.append(f"no driver for the arm {name} ({robot.model})")
-        elif robot.gripper.fingers != "none" and ("gripper", name) not in has:
+        elif ("gripper", name) not in has:
             missing.append(f"no driver for the gripper of {name}")
     over = sorted(name for name, camera in setup.lab.cameras.items() if camera.robot is None)
     eyes = [name for name in over if {("camera", name), ("depth camera", name)} & has]

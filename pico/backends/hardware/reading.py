@@ -13,6 +13,7 @@ from pico.backends.last_seen import Taken
 from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.drivers.driven import UNKNOWN
 from pico.drivers.protocols import Grip, SafetyState
+from pico.model.catalog import Grasp
 from pico.model.observation import LACKING, LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
@@ -118,9 +119,14 @@ def _felt(
     opening = found.grips[name].width if name in found.grips else None
     known = taken if taken is not None and taken.component in setup.lab.inventory else None
     grasp = setup.type_of(known.component).geometry.grasp if known else None
-    holds = known is not None and grasp is not None and opening is not None and grasp.fits(opening)
+    holds = known is not None and grasp is not None and name in found.grips and held(found.grips[name], grasp)
     joints = arms[name].taken(np.array(found.joints[name])) if name in arms else found.joints[name]
     return ObservedRobot(joints=joints, holding=known.component if known and holds else None, opening=opening)
+
+
+def held(grip: Grip, grasp: Grasp) -> bool:
+    """Return whether a hand holds a part, by the distance between its pads, or by its sensor if it knows no width."""
+    return grasp.fits(grip.width) if grip.width is not None else grip.holds is True
 
 
 def _person(found: Told, kinds: Mapping[str, str]) -> bool | None:

@@ -11,7 +11,8 @@ from pico.backends.last_seen import recall, recall_hands
 from pico.diagnostics import PicoError
 from pico.model.observation import Observation, ObservedComponent, ObservedRobot
 from pico.model.setup import Setup
-from pico.motion.kinematics import tool_of, tool_pose
+from pico.motion.kinematics import tool_of, tool_point
+from pico.motion.reach import grasp_height
 from pico.motion.types import Joints
 from pico.places.bench import BenchPlace
 from pico.twin.arms import TwinArm
@@ -62,7 +63,9 @@ class Shown:
                 continue
             robot, joints = self._setup.lab.robots[name], found.seen.robots[name].joints
             pose = tool_of(robot, joints).compose(taken.pose)
-            places[part] = _in_hand(upright(pose), tool_pose(robot, joints)[2] - grasp.height)
+            places[part] = _in_hand(
+                upright(pose), tool_point(robot, joints)[2] - grasp_height(robot, self._setup.type_of(part).geometry)
+            )
             before = components.get(part, ObservedComponent())
             components[part] = replace(before, presence="held", pose=pose, how="gripper")
         return replace(found, seen=replace(found.seen, components=components), places=places)

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING
 from pico.backends import checks
 from pico.backends.attempt import Failed
 from pico.backends.hardware.failing import failed
+from pico.backends.hardware.reading import held
 from pico.diagnostics import PicoError, error
-from pico.drivers.protocols import Arm, Gripper
+from pico.drivers.protocols import Arm, Clamp, Gripper
 from pico.model.operation import Operation
 from pico.model.setup import Setup
 from pico.motion.reach import grasp_height
@@ -34,11 +35,11 @@ def speed_of(setup: Setup, path: MovePath) -> float:
     """Return how fast the tool of an arm is at the fastest along a path as it is timed [mm/s]."""
     import numpy as np
 
-    from pico.motion.kinematics import tool_pose
+    from pico.motion.kinematics import tool_point
 
     fastest = 0.0
     for segment in path.segments:
-        at = np.array([tool_pose(setup.lab.robots[path.robot], joints)[:3] for joints in segment.joints])
+        at = np.array([tool_point(setup.lab.robots[path.robot], joints) for joints in segment.joints])
         gone, took = np.linalg.norm(np.diff(at, axis=0), axis=1), np.diff(np.array(segment.times))
         fastest = max(fastest, *(gone[took > 0] / took[took > 0]), 0.0)
     return float(fastest)
@@ -109,9 +110,14 @@ class Way:
 
     async def _open(self, width: float) -> None:
         if self._gripper is not None:
-            found = await self._gripper.move_to(width)
-            if found.holds or found.width < width - SQUEEZE:
-                text = f"the fingers of {self._path.robot} open to {found.width:.1f} mm only, not to {width:.1f} mm"
+            found = await (
+                self._gripper.hold(False) if isinstance(self._gripper, Clamp) else self._gripper.move_to(width)
+            )
+            narrow = found.width is not None and found.width < width - SQUEEZE
+            if found.holds or narrow:
+                text = f"the hand of {self._path.robot} does not let go"
+                if found.width is not None:
+                    text = f"the fingers of {self._path.robot} open to {found.width:.1f} mm only, not to {width:.1f} mm"
                 raise PicoError(error("gripper", text, address=self._path.robot))
 
     async def _grip(self) -> None:
@@ -120,13 +126,17 @@ class Way:
         grasp = self._setup.type_of(self.part).geometry.grasp
         if self._gripper is None or grasp is None:
             return
-        found = await self._gripper.move_to(max(0.0, grasp.width - SQUEEZE))
-        if not grasp.fits(found.width) or found.holds is False:
+        if isinstance(self._gripper, Clamp):
+            found = await self._gripper.hold(True)
+        else:
+            found = await self._gripper.move_to(max(0.0, grasp.width - SQUEEZE))
+        if not held(found, grasp) or found.holds is False:
             self.carries = False
             robot, name = self._path.robot, self.part
-            text = (
-                f"{robot} missed {name}: its fingers closed to {found.width:.1f} mm, and the part is {grasp.width:g} mm"
-            )
+            text = f"{robot} missed {name}: its hand holds nothing"
+            if found.width is not None:
+                fingers = f"its fingers closed to {found.width:.1f} mm, and the part is {grasp.width:g} mm"
+                text = f"{robot} missed {name}: {fingers}"
             raise Failed(error("missed-grasp", text, address=name))
 
     async def _require_held(self) -> None:
@@ -135,6 +145,6 @@ class Way:
         if self._gripper is None or grasp is None:
             return
         found = await self._gripper.grip()
-        if not grasp.fits(found.width):  # whether it presses on something a hand forgets that had no power
+        if not held(found, grasp):  # whether it presses on something a hand forgets that had no power
             self.carries = False
             raise Failed(checks.dropped(self._path.robot, self.part))

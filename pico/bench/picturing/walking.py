@@ -19,7 +19,7 @@ from pico.model.operation import Operation
 from pico.model.pose import Pose
 from pico.model.robot import Robot
 from pico.model.setup import Setup
-from pico.motion.kinematics import tool_of, tool_pose
+from pico.motion.kinematics import tool_of, tool_point
 from pico.motion.types import Blocked, Joints, Motion, MovePath
 from pico.twin.moment import Moment, moment_of
 from pico.twin.placement import Placement, upright
@@ -104,7 +104,7 @@ class Walk:
         if step.takes:
             name, stands = step.takes
             tool = tool_of(self.setup.lab.robots[robot], step.joints)
-            low = _height(self.setup.lab.robots[robot], step.joints)
+            low = tool_point(self.setup.lab.robots[robot], step.joints)[2]
             self._held[robot] = _Held(name, tool.inverse().compose(stands), low)
             own = replace(own, holding=name)
             self._presence(name, "held", stands)
@@ -151,7 +151,7 @@ class Walk:
 
     def _carried(self, robot: str, held: _Held) -> Placement:
         arm, joints = self.setup.lab.robots[robot], self.seen.robots[robot].joints
-        return upright(tool_of(arm, joints).compose(held.grip), _height(arm, joints) - held.low)
+        return upright(tool_of(arm, joints).compose(held.grip), tool_point(arm, joints)[2] - held.low)
 
     def _steps(self, deed: Deed) -> list[_Step]:
         """Return how an arm goes through a deed, none where it has no part in it, or nobody knows its way."""
@@ -208,7 +208,7 @@ class _Ways:
     def _spread(self, joints: Joints) -> tuple[float, ...]:
         """Joints, and where the tool is by them, so that LENGTH of that weighs as much as ANGLE of these."""
         tool = tool_of(self.arm, joints)
-        return *joints, *(v * ANGLE / LENGTH for v in (tool.x, tool.y, _height(self.arm, joints)))
+        return *joints, *(v * ANGLE / LENGTH for v in (tool.x, tool.y, tool_point(self.arm, joints)[2]))
 
     def steps(self, width: float) -> Iterator[_Step]:
         """Yield the arm, whose pads are `width` [mm] apart at first, from waypoint to waypoint."""
@@ -247,8 +247,3 @@ def _straight(times: Sequence[float], points: Sequence[Sequence[float]]) -> bool
         if any(abs(a + share * (b - a) - q) > ANGLE for a, b, q in zip(points[0], points[-1], found, strict=True)):
             return False
     return True
-
-
-def _height(arm: Robot, joints: Joints) -> float:
-    """How high the tool of an arm or a gantry is [mm]."""
-    return 1000 * joints[2] if arm.model == "gantry" else tool_pose(arm, joints)[2]

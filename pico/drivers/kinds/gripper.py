@@ -8,7 +8,8 @@ from pico.model.instruments.kind import InstrumentKind
 
 async def _reads(gripper: Gripper) -> str:
     grip = await gripper.grip()
-    return f"{grip.width:.1f} mm open" + (", holds something" if grip.holds else "")
+    width = [] if grip.width is None else [f"{grip.width:.1f} mm open"]
+    return ", ".join([*width, "holds something" if grip.holds else "holds nothing"])
 
 
 KIND = InstrumentKind(

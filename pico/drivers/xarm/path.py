@@ -30,8 +30,9 @@ class Path:
         """Return the joints at `time` [rad]; before and after the path its ends."""
         return [float(np.interp(time, self.times, column)) for column in self.joints.T]
 
-    def corners(self) -> list[int]:
-        """Return which of its points a polyline needs that stays within STRAIGHT of it, first and last included."""
+    def corners(self, straight: float = STRAIGHT) -> list[int]:
+        """Return which of its points a polyline needs that stays within `straight` [rad] of it, first and last
+        included."""
         kept, open_ = {0, len(self.times) - 1}, [(0, len(self.times) - 1)]
         while open_:
             first, last = open_.pop()
@@ -39,7 +40,7 @@ class Path:
                 continue
             off = _off_line(self.joints[first : last + 1])
             worst = int(np.argmax(off))
-            if off[worst] > STRAIGHT:
+            if off[worst] > straight:
                 kept.add(first + worst)
                 open_ += [(first, first + worst), (first + worst, last)]
         return sorted(kept)
