@@ -20,8 +20,8 @@ import numpy as np
 from pico.diagnostics import PicoError, error
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
+from pico.drivers.path import Path
 from pico.drivers.protocols import ArmState, Identity
-from pico.drivers.xarm.path import Path
 from pico.drivers.zaber import STAGE, Stage, opened
 from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
@@ -120,7 +120,7 @@ class Gantry:
 
     async def motion_test(self) -> Mapping[str, float]:
         """Try its motion and its stop, see `pico.drivers.protocols.MotionTested`; raises PicoError."""
-        from pico.drivers.xarm.testing import motion_test
+        from pico.drivers.motion_test import motion_test
 
         return await motion_test(self.name, self)
 
@@ -190,10 +190,10 @@ USUAL = {"x": "1", "y": "2", "z": "3", "yaw": "4"}
 """The numbers of the stages in the chain."""
 
 GANTRY = Driver(
-    kind="arm", made=Gantry, opened=opened, closed=lambda link: link.close(),
+    kind="arm", robot="gantry", made=Gantry, opened=opened, closed=lambda link: link.close(),
     address={"host": "its IP address, where it has one", "port": "the TCP port, or the serial port",
              **{axis: f"the number of the stage of {axis} in the chain" for axis in AXES}},
-    bus=("host", "port"), usual=USUAL,
+    bus=("host", "port"), usual=USUAL, properties=dict(zip(AXES, ("mm", "mm", "mm", "deg"), strict=True)),
     settings={
         "counts_per_mm": Setting(about="counts a mm of x, y and z: 1 / the microstep size on the vendor's page"),
         "counts_per_deg": Setting(about="counts a degree of yaw"),

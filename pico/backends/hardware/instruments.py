@@ -191,7 +191,7 @@ def require_whole(setup: Setup, entries: Mapping[str, DeviceEntry], kinds: Mappi
         if ("arm", name) not in has:
             missing.append(f"no driver for the arm {name} ({robot.model})")
         elif ("gripper", name) not in has:
-            missing.append(f"no driver for the gripper of {name}")
+            missing.append(f"no driver for the gripper of {name}, without which it holds nothing")
     over = sorted(name for name, camera in setup.lab.cameras.items() if camera.robot is None)
     eyes = [name for name in over if {("camera", name), ("depth camera", name)} & has]
     if not eyes:

@@ -16,11 +16,12 @@ from pico.diagnostics import PicoError, error
 from pico.drivers.bus import BEAT, LONGEST, Bus
 from pico.drivers.driver import Driver
 from pico.drivers.line import Line
+from pico.drivers.path import Path
 from pico.drivers.protocols import ArmState, Identity
 from pico.drivers.xarm.faults import box_fault, clearable, told
 from pico.drivers.xarm.library import CONTROL_PORT, imported, library
 from pico.drivers.xarm.link import Link, identity
-from pico.drivers.xarm.path import Path, checked
+from pico.drivers.xarm.path import checked
 from pico.drivers.xarm.sender import Sender, SenderLost, SentStream
 from pico.drivers.xarm.settings import FENCE, PROPERTIES, SETTINGS, differing, settings
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
@@ -141,7 +142,7 @@ class XArm:
 
     async def motion_test(self) -> Mapping[str, float]:
         """Try its motion, its stop and its limits, see `pico.drivers.protocols.MotionTested`; raises PicoError."""
-        from pico.drivers.xarm.testing import motion_test
+        from pico.drivers.motion_test import motion_test
 
         return await motion_test(self.name, self)
 
@@ -346,6 +347,7 @@ def _opened(entry: DeviceEntry) -> Link:
 
 DRIVER = Driver(
     kind="arm",
+    robot="xarm7",
     made=XArm,
     opened=_opened,
     closed=Link.close,

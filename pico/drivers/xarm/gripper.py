@@ -151,6 +151,7 @@ class XArmGripper:
 
 DRIVER = Driver(
     kind="gripper",
+    robot="xarm7",
     made=XArmGripper,
     opened=ARM.opened,
     closed=ARM.closed,

@@ -23,8 +23,8 @@ from typing import Any
 
 from pico.base.awake import Awake
 from pico.diagnostics import PicoError
+from pico.drivers.path import Path
 from pico.drivers.xarm.link import Link
-from pico.drivers.xarm.path import Path
 from pico.drivers.xarm.streaming import How
 
 BEAT = 0.1
@@ -33,7 +33,7 @@ SILENT = 0.5
 """How long the process that sends may say nothing [s], by the time in which this one was running itself."""
 RESTS = 0.3
 """How long this process may say nothing until the arm comes to rest [s]; three beats."""
-ENDS = 2.0
+ENDS = 3.0
 """How long it may say nothing until the motion is over [s]: what the bench looks like by then it does not know."""
 PAUSE = 0.3
 """The most that a pause of the listener itself counts [s]; more than it takes between two looks."""

@@ -23,9 +23,9 @@ from typing import Any, BinaryIO
 
 from pico.base.awake import Awake
 from pico.diagnostics import PicoError
+from pico.drivers.path import Path
 from pico.drivers.xarm.library import library
 from pico.drivers.xarm.link import Link
-from pico.drivers.xarm.path import Path
 from pico.drivers.xarm.sender import BEAT, ENDS, PAUSE, RESTS
 from pico.drivers.xarm.streaming import BRAKE, How, Stream
 

@@ -18,8 +18,8 @@ from typing import Literal
 import numpy as np
 
 from pico.diagnostics import PicoError, error
+from pico.drivers.path import Path
 from pico.drivers.xarm.link import Link
-from pico.drivers.xarm.path import Path
 
 PERIOD = 0.004
 """Between set-points [s]."""

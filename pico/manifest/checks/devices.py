@@ -15,6 +15,7 @@ from pico.model.instruments.kind import value_at
 from pico.model.instruments.kinds import kind_of
 from pico.model.instruments.mapping import mapped
 from pico.model.quantities import QuantityError, dimension
+from pico.model.robot import Robot
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wired
 from pico.plug_ins.calling import Interface, instance, loaded
@@ -52,6 +53,12 @@ def check_entry(
         at = where_key(document, *path) if missing or path[2] not in _AT_VALUE else where(document, *path)
         yield error("device", f"{name}: {one.text}", hint=one.hint, source=at)
     owner = entry.of or name
+    robot = setup.lab.robots.get(owner)
+    if robot is not None and about.robot not in ("", robot.model):
+        own = [n for n in sorted(entries("pico.drivers")) if (d := declaration(n)[0]) and _is_for(d, about.kind, robot)]
+        text = f"{owner} is of the model `{robot.model}`, and `{entry.driver}` is for the model `{about.robot}`"
+        hint = f"drivers of its {about.kind}: {', '.join(f'`{n}`' for n in own)}" if own else "no driver is for that"
+        yield error("device", text, hint=hint, source=where(document, "devices", name, "driver"))
     if owner in setup.lab.inventory:
         for key, wired in mapped(setup, about, entry, owner).items():
             if wired.property in about.properties_of(entry):
@@ -94,6 +101,10 @@ def _mapped(
         yield from _positions(document, name, tunable, f"{owner}.{key}", names)
     elif own and units[key] and (wrong := _unit(wired, own, units[key], f"{owner}.{key}", entry.driver)):
         yield error("unit", wrong[0], hint=wrong[1], source=at)
+
+
+def _is_for(about: Declaration, kind: str, robot: Robot) -> bool:
+    return about.kind == kind and about.robot in ("", robot.model)
 
 
 _ENDS_LIGHT = ("shutter", "laser", "lamp")

@@ -87,6 +87,8 @@ class Declaration:
     """Drivers that can share a link say the same here; else none do."""
     places: tuple[str, ...] | None = None
     """Which keys of the address tell the devices at one link apart; by default all that are not in `bus`."""
+    robot: str = ""
+    """The model of the robots that an arm or a gripper is for; '' for any."""
     usual: Mapping[str, str] = field(default_factory=dict)
     """The parts of an address that hold if the lab leaves them out."""
     one_identity: bool = False

@@ -10,8 +10,8 @@ import pytest
 from xarm_rig import Rig
 
 from pico.diagnostics import PicoError, error
+from pico.drivers import motion_test as testing
 from pico.drivers.protocols import ArmState
-from pico.drivers.xarm import testing
 
 
 def test_the_arm_turns_its_last_joint_is_stopped_and_stands_where_it_stood(rig: Rig) -> None:

@@ -78,7 +78,7 @@ def test_an_arm_comes_to_rest_on_its_path_while_nobody_says_that_it_is_wanted(
 ) -> None:
     monkeypatch.setattr(sender, "BEAT", 30.0)  # this process stands still, as far as the other one hears
     told = rig.do(_meanwhile(rig, lambda: None))
-    assert re.search(r"arm1 was halted on its way during op3: move lx_100: PICO itself did not run for 2\.\d s", told)
+    assert re.search(r"arm1 was halted on its way during op3: move lx_100: PICO itself did not run for 3\.\d s", told)
     assert rig.emulator.box.error == 0 and still(rig)
 
 
@@ -102,7 +102,7 @@ def test_an_arm_goes_on_where_it_was_once_it_is_wanted_again(rig: Rig, how: str)
         sending, rest = rig.arm._sender, []
         assert sending is not None
         if how == "busy":
-            hold_interpreter(0.9)
+            hold_interpreter(0.7)
         else:
             say = sending._next
             sending._next = lambda: (time.sleep(1.2), say())[1]  # type: ignore[func-returns-value,method-assign]

@@ -1,4 +1,4 @@
-"""The motion test of an xArm: its last joint turns, so that the tool stays where it is."""
+"""The motion test of an arm: its last joint turns, so that the tool stays where it is."""
 
 from __future__ import annotations
 
