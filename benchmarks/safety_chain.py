@@ -1,12 +1,13 @@
 """How fast light ends for each fault in each state of a bench.
 
-    python benchmarks/safety_chain.py [--faults ...] [--states ...]
+    python benchmarks/safety_chain.py [--faults ...] [--states ...] [--benches ...]
 
 Each fault meets each state of a bench, with a laser that has a shutter and one that has none, both with and without a
 dead-man. The bench is taken for a real one (`--backend hardware`): its emulators, and the simulated world behind them,
-are a process of their own (`benchmarks/safety_world.py`), and emission is measured at the emulated lasers. Printed is
-the worst time of each fault, and in which cells light stayed on. The exit code is 3 where a bar is missed: 0.5 s, 1 s
-for links that are lost and for a guard or a host that is gone (the dead-man of 1 s, and 0.5 s).
+are a process of their own (`benchmarks/safety_world.py`), and emission is measured at the emulated lasers. `--benches`
+also tries one with two arms, one without any, and one with three lasers. Printed is the worst time of each fault, and
+in which cells light stayed on. The exit code is 3 where a bar is missed: 0.5 s, 1 s for links that are lost and for a
+guard or a host that is gone (the dead-man of 1 s, and 0.5 s).
 
 `--table` prints the table of docs/how-to/laser-safety.md instead, by the rule that the cells are judged by.
 """
@@ -30,6 +31,8 @@ from typing import Any
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
+
+from safety_world import BENCHES  # noqa: E402
 
 from pico.backends.hardware.guard.note import notices, read  # noqa: E402
 from pico.base.state_files import EDGE  # noqa: E402
@@ -75,6 +78,7 @@ class Cell:
     """One fault in one state, with or without dead-man: after how long the light of each laser ended [s], None where it
     did not, and whether that was told."""
 
+    bench: str
     fault: str
     state: str
     dead_man: bool
@@ -90,17 +94,17 @@ class Cell:
                 found.append(f"light of {name} {'stayed on' if after is None else f'ended after {after:.2f} s'}")
         if None in self.ended.values() and not self.told:
             found.append("light stayed on, and nothing tells of it")
-        return [
-            f"{self.fault}, {self.state}, {'with' if self.dead_man else 'without'} dead-man: {one}" for one in found
-        ]
+        how = f"{self.bench}, {self.fault}, {self.state}, {'with' if self.dead_man else 'without'} dead-man"
+        return [f"{how}: {one}" for one in found]
 
 
 class Chain:
-    """One bench at the wire, and what fails on it."""
+    """One bench at the wire, of a `kind` of `safety_world.BENCHES`, and what fails on it."""
 
-    def __init__(self, folder: Path, *, dead_man: bool) -> None:
+    def __init__(self, folder: Path, *, dead_man: bool, kind: str = "one arm") -> None:
         self.lab, self.dead_man, self.place = folder, dead_man, BenchPlace(folder, "hardware")
-        words = beside("safety_world", str(folder), *([str(WATCHDOG)] if dead_man else []))
+        words = beside("safety_world", str(folder), str(WATCHDOG) if dead_man else "", kind)
+        self.kind = kind
         self.world = subprocess.Popen(
             words, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1, cwd=ROOT / "benchmarks"
         )
@@ -118,13 +122,14 @@ class Chain:
         return found if found and Path(f"/proc/{found}").exists() else 0
 
     def light(self) -> None:
-        """Let both lasers emit, as a person does."""
+        """Let all lasers emit, as a person does."""
         with Bench.open(self.lab, backend="hardware") as bench:
             bench.wait_until_free(60)  # the edge may tidy up what an unattended run left
-            for name, tunable, value in (("laser", "emission", "true"), ("laser", "shutter", "open"),
-                                         ("bare", "emission", "true")):  # fmt: skip
-                report = bench.apply(bench.single(name, "set", **{tunable: value}))
-                assert report.outcome == "done", report
+            for name in self.ask("lit"):
+                for tunable, value in (("emission", "true"), ("shutter", "open")):
+                    if tunable in bench.setup.type_of(name).tunables:
+                        report = bench.apply(bench.single(name, "set", **{tunable: value}))
+                        assert report.outcome == "done", report
         assert all(self.ask("lit").values())
 
     @contextmanager
@@ -157,14 +162,14 @@ class Chain:
             while time.time() < until and any(self.ask("lit").values()):
                 time.sleep(0.02)
             time.sleep(0.1)  # the world notes when light ended a moment later
-            ended = {name: self.ask("ended").get(name) for name in LASERS}
+            ended = {name: self.ask("ended").get(name) for name in lit}
             if fault == "frozen host":
                 time.sleep(max(0.0, began + FROZEN - time.time()))
                 os.kill(guard, signal.SIGCONT)
             told = self._told()
         self._mend(fault)
         after = {name: None if at is None else max(0.0, at - began) for name, at in ended.items() if lit[name]}
-        return Cell(fault, state, self.dead_man, after, told)
+        return Cell(self.kind, fault, state, self.dead_man, after, told)
 
     def _fail(self, fault: str, client: subprocess.Popen[str] | None, guard: int) -> None:
         if fault == "lost link":
@@ -230,6 +235,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--faults", nargs="*", default=list(FAULTS), choices=list(FAULTS))
     parser.add_argument("--states", nargs="*", default=list(STATES), choices=STATES)
+    parser.add_argument("--benches", nargs="*", default=["one arm"], choices=list(BENCHES))
     parser.add_argument("--table", action="store_true", help="only print the table of the docs")
     parser.add_argument("--only-dead-man", action="store_true", help="no bench without dead-men")
     asked = parser.parse_args()
@@ -239,13 +245,13 @@ def main() -> int:
     os.environ["PICO_EMULATED_PACE"] = "10"
     cells = list[Cell]()
     with tempfile.TemporaryDirectory() as folder:
-        for dead_man in (True,) if asked.only_dead_man else (True, False):
+        for number, (kind, dead_man) in enumerate(product(asked.benches, (True, False)[: 2 - asked.only_dead_man])):
             faults = asked.faults if dead_man else [fault for fault in asked.faults if fault in GUARDLESS]
             if not faults:
                 continue
-            chain = Chain(Path(folder) / f"lab{int(dead_man)}", dead_man=dead_man)
+            chain = Chain(Path(folder) / f"lab{number}", dead_man=dead_man, kind=kind)
             try:
-                for fault, state in product(faults, asked.states):
+                for fault, state in product(faults, [s for s in asked.states if s != "moving" or BENCHES[kind]]):
                     cells.append(chain.cell(fault, state))
                     _show(cells[-1])
             finally:
@@ -254,9 +260,9 @@ def main() -> int:
 
 
 def _show(cell: Cell) -> None:
-    said = ", ".join(f"{LASERS[n]} {'stays on' if t is None else f'{t:.2f} s'}" for n, t in cell.ended.items())
+    said = ", ".join(f"{n} {'stays on' if t is None else f'{t:.2f} s'}" for n, t in cell.ended.items())
     how = "" if cell.dead_man else ", no dead-man"
-    print(f"{cell.fault} x {cell.state}{how}: {said}{'' if cell.told else '; nothing told'}", flush=True)
+    print(f"{cell.bench}: {cell.fault} x {cell.state}{how}: {said}{'' if cell.told else '; nothing told'}", flush=True)
 
 
 def _judged(cells: list[Cell]) -> int:

@@ -6,7 +6,8 @@ standard input, each answered by one: `["lit"]` (whether light leaves each laser
 `["watch"]` (note from now on when light ends), `["ended"]` (when it ended, by the wall [s]), `["pull", DEVICE, true]`,
 `["freeze", BOX, true]` (its port takes everything and answers nothing), `["cut", BOX]`.
 
-`laser` has a shutter and is switched, `bare` has no shutter. Both are of class 2, so that nobody has to arm them.
+`laser` has a shutter and is switched, `bare` has no shutter; `second`, on a bench of three lasers, is as `laser`. All
+are of class 2, so that nobody has to arm them.
 """
 
 from __future__ import annotations
@@ -49,7 +50,9 @@ GOALS = {"bright": {"maximize": "camera.peak", "tunables": {"camera.exposure": [
 LIGHT, INPUTS = 4000, 4001
 """The ports of the box of lasers and shutters, and of that of safety inputs, as the lab has them."""
 KINDS = {"door_box": "door", "lock": "interlock", "estop": "emergency_stop", "veil": "curtain"}
-TYPES = ("weak", "bare")
+BENCHES = {"one arm": 1, "two arms": 2, "no arm": 0, "three lasers": 1}
+"""How many arms each kind of bench has."""
+MOUNTS = {"arm1": {"x": 480, "y": 760, "yaw": -90}, "arm2": {"x": 900, "y": 100, "yaw": 90}}
 
 
 def laser_type(name: str, *, shutter: bool) -> str:
@@ -64,15 +67,23 @@ def laser_type(name: str, *, shutter: bool) -> str:
     return dumped(document)
 
 
-def make_lab(folder: Path, watchdog: float | None) -> None:
-    """Write the lab: an arm, two cameras over the table, one in the beam, two lasers, four safety inputs."""
+def make_lab(folder: Path, watchdog: float | None, kind: str = "one arm") -> None:
+    """Write the lab: as many arms as its `kind` has, two cameras over the table, one in the beam, two or three lasers,
+    four safety inputs."""
     folder.mkdir(parents=True, exist_ok=True)
     lab = yaml.safe_load((ROOT / "labs" / "minimal" / "lab.yaml").read_text())
     lab["cameras"] = {name: {**lab["cameras"][name], "pixels": [1224, 1024]} for name in ("left", "right")}
     lab["policy"] = {"presence_ends": "2", "open_beam": True}
     lab["goals"] = GOALS
+    arms = list(MOUNTS)[: BENCHES[kind]]
+    lab["robots"] = {name: {"model": "xarm7", "mount": MOUNTS[name]} for name in arms}
+    if not arms:
+        del lab["robots"]
+    lasers = {"laser": True, "bare": False} | ({"second": True} if kind == "three lasers" else {})
     lab["inventory"]["laser"]["type"] = "weak_laser"
     lab["inventory"]["bare"] = {"type": "bare_laser", "pose": {"x": 200, "y": 600, "yaw": 0}}
+    if "second" in lasers:
+        lab["inventory"]["second"] = {"type": "weak_laser", "pose": {"x": 200, "y": 200, "yaw": 0}}
     (folder / "lab.yaml").write_text(dumped(lab))
     (folder / "weak_laser.yaml").write_text(laser_type("weak", shutter=True))
     (folder / "bare_laser.yaml").write_text(laser_type("bare", shutter=False))
@@ -80,24 +91,32 @@ def make_lab(folder: Path, watchdog: float | None) -> None:
     shutil.copy(ROOT / "labs" / "minimal" / "state" / "table.yaml", folder / "state")
     state = yaml.safe_load((folder / "state" / "table.yaml").read_text())
     state["components"]["bare"] = {"emission": True}
+    if "second" in lasers:
+        state["components"]["second"] = {"emission": True, "shutter": "open"}
     (folder / "state" / "table.yaml").write_text(dumped(state))
 
     def box(port: int, name: str) -> dict[str, Any]:
         return {"host": "192.0.2.20", "port": port, "name": name}
 
-    arm = {"host": "192.0.2.222"}
-    serial = {"serial": "XI130500123456"}
     cams = {"left": 5001, "right": 5002, "camera": 5003}
     settings = {"settings": {"watchdog": watchdog}} if watchdog is not None else {}
     devices: dict[str, Any] = {
-        "arm1": {"driver": "xarm.arm", "address": arm, "identity": serial, "settings": {"tool_z": 172}},
-        "arm1_hand": {"driver": "xarm.gripper", "of": "arm1", "address": dict(arm)},
         **{n: {"driver": "frames.camera", "address": {"host": "192.0.2.10", "port": p}} for n, p in cams.items()},
-        "laser_shutter": {"driver": "switches.shutter", "of": "laser", "address": box(LIGHT, "shutter"), **settings},
-        "laser_head": {"driver": "switches.laser", "of": "laser", "address": box(LIGHT, "laser")},
-        "bare_head": {"driver": "switches.laser", "of": "bare", "address": box(LIGHT, "bare"), **settings},
         **{name: {"driver": "switches.input", "address": box(INPUTS, name)} for name in KINDS},
     }
+    for number, name in enumerate(arms):
+        address = {"host": f"192.0.2.{222 + number}"}
+        devices[name] = {
+            "driver": "xarm.arm", "address": address, "identity": {"serial": f"XI13050012345{6 + number}"},
+            "settings": {"tool_z": 172},
+        }  # fmt: skip
+        devices[f"{name}_hand"] = {"driver": "xarm.gripper", "of": name, "address": dict(address)}
+    for name, shuts in lasers.items():
+        head = {"driver": "switches.laser", "of": name, "address": box(LIGHT, name)}
+        devices[f"{name}_head"] = head if shuts else {**head, **settings}
+        if shuts:
+            at = box(LIGHT, f"{name}_shutter")
+            devices[f"{name}_shutter"] = {"driver": "switches.shutter", "of": name, "address": at, **settings}
     document = {
         "apiVersion": "pico/v1", "kind": "Devices", "metadata": {"lab": "minimal"}, "devices": devices,
         "safety_inputs": {name: {"kind": kind, "device": name} for name, kind in KINDS.items()},
@@ -129,8 +148,12 @@ class World:
 
     def lit(self) -> dict[str, bool]:
         """Return whether light leaves each laser."""
-        emits = {name: self.behind.value(name, "emission") is True for name in ("laser", "bare")}
-        return {**emits, "laser": emits["laser"] and self.behind.value("laser", "shutter") == "open"}
+        known = self.behind.setup.lab.inventory
+        emits = {
+            name: self.behind.value(name, "emission") is True for name in ("laser", "bare", "second") if name in known
+        }
+        opens = {name: name == "bare" or self.behind.value(name, "shutter") == "open" for name in emits}
+        return {name: on and opens[name] for name, on in emits.items()}
 
     def _note(self) -> None:
         while True:
@@ -163,9 +186,9 @@ class World:
         return time.time()
 
 
-def main(folder: str, watchdog: str = "") -> None:
+def main(folder: str, watchdog: str = "", kind: str = "one arm") -> None:
     """Serve the bench until standard input ends."""
-    make_lab(Path(folder), float(watchdog) if watchdog else None)
+    make_lab(Path(folder), float(watchdog) if watchdog else None, kind)
     world = World(Path(folder))
     heard = switches.Switches.heard
 
