@@ -5,8 +5,8 @@ so. So they are sent by a process that does nothing else (`sending.py`), over a 
 once, before the first motion. What it says of itself comes back over a pipe, and both sides say ten times a second that
 they are alive. If this process is gone, the arm comes to rest on its path; if it stands still, too, and goes on where
 it was once this process does, within ENDS. If the other process is gone or stands still, no set-point comes any more:
-the arm stands, and the operation fails. A stop needs no such process: this one keeps its own connection, and tells the
-control box to stop over that.
+the arm stands, and the operation fails. A stop does not depend on it: this process keeps a connection of its own, and
+stops the control box over that once the other came to rest, or had its time and was killed.
 """
 
 from __future__ import annotations
