@@ -209,6 +209,15 @@ SAFETY_BY_HAND: tuple[ByHand, ...] = (
         "return (_converted(value, unit, self.unit) - self.offset) / self.scale",
         "return _converted((value - self.offset) / self.scale, unit, self.unit)", "test_wired_numbers.py::test_scale_and_offset_are_in_the_unit_of_the_wiring_and_lead_there_and_back",
         "pico/model/wiring.py", "A mirror with an offset of 2 deg goes 2 mrad beside its place, or 100 mrad: the beam leaves the table."),
+    ByHand("an arm goes on while the process that wants it stands still",
+        "stream.rests = age > RESTS", "stream.rests = False", "test_xarm_sender.py::test_an_arm_goes_on_where_it_was_once_it_is_wanted_again",
+        "pico/drivers/xarm/sending.py", "The host is frozen, nothing watches the door, and the arm moves on for seconds."),
+    ByHand("a process that sends set-points and says nothing is waited for",
+        "if asked and (age := self._clock.now() - self._heard) > SILENT:", "if asked and (age := self._clock.now() - self._heard) > 1e9:", "test_xarm_sender.py::test_a_sender_that_is_gone_or_frozen_ends_the_operation_with_the_arm_at_rest",
+        "pico/drivers/xarm/sender.py", "The operation never ends, and once the process goes on, so does the arm, at any time."),
+    ByHand("a gantry's other stages go on when one has failed",
+        "if failed and not self._ended:", "if failed and self._ended:", "test_zaber_gantry.py::test_a_stage_that_is_stuck_stops_the_others",
+        "pico/drivers/zaber_gantry.py", "The tool leaves its straight way and goes through what the plan goes around."),
 )  # fmt: skip
 """Errors in what decides about light, motion and which bench is meant, written by somebody who did not know the tests.
 Each is killed by a quick test of the package that it is in."""

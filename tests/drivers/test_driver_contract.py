@@ -88,7 +88,10 @@ def run(go: Callable[[], Awaitable[None]]) -> None:
 def test_every_driver_of_ours_is_under_contract() -> None:
     own = {name for name, entry in known().items() if entry.value.startswith("pico.")}
     elsewhere = {n for n in own if n.split(".")[0] in ("xarm", "basler", "realsense")}
-    elsewhere |= {"zaber.gantry", "switches.gripper"}  # tests/backends/hardware/test_gantry_of_stages.py
+    elsewhere |= {
+        "zaber.gantry",
+        "switches.gripper",
+    }  # test_zaber_gantry.py, tests/backends/hardware/test_gantry_of_stages.py
     assert own - elsewhere == set(CASES)
     assert {driver(name).maturity for name in CASES} == {"emulated"}
 

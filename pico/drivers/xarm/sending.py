@@ -39,7 +39,6 @@ class Sending:
         self._now: tuple[int, Stream] | None = None
         self._clock, self._parent = Awake(time.monotonic, PAUSE), os.getppid()
         self._heard = self._clock.now()
-        self._over = False
 
     def serve(self, inbox: BinaryIO) -> None:
         """Obey until the input ends; then come to rest."""
@@ -50,7 +49,6 @@ class Sending:
                 self._heard = self._clock.now()
                 if what != "beat":
                     getattr(self, f"_{what}")(*words)
-        self._over = True
         self._rest()
 
     def _open(self, host: str, port: int) -> None:
