@@ -42,12 +42,16 @@ def validate(
     from pico.optics.nominal.spans import check_spans
     from pico.planning.checks.bolted import check_bolted
     from pico.planning.checks.grips import check_grips, check_reach
+    from pico.planning.checks.loads import check_loads
+    from pico.planning.checks.set_points import check_set_points
 
     session = Session.of(context)
     asked = (
         lambda root, read: [
             *check_bolted(read.require()[0], read.source),
             *check_grips(read),
+            *check_loads(read),
+            *check_set_points(read),
             *check_reach(read),
             *overlapping(read),
             *check_light(read),

@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from pico.backends.conversions import conversion_of
 from pico.backends.instruments import InstrumentRow
 from pico.base.reasons import ReasonCode
 from pico.drivers.registry import driver
 from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.mapping import mapped
 from pico.model.instruments.readout import Readout
 from pico.model.quantities import Value

@@ -31,10 +31,14 @@ class FolderVerdict:
     @property
     def exit_code(self) -> ExitCode:
         """What `pico validate` ends with."""
-        wrong = any(d.severity == "error" for d in self.diagnostics)
-        return ExitCode.ERROR if wrong else ExitCode.DONE
+        wrong = {d.code for d in self.diagnostics if d.severity == "error"}
+        if not wrong:
+            return ExitCode.DONE
+        return ExitCode.IMPOSSIBLE if wrong <= _BEYOND_THE_BENCH else ExitCode.ERROR
 
 
+_BEYOND_THE_BENCH = frozenset(("payload", "set-point"))
+"""What is well written, and what the bench can't do: a plan says it with the same exit code."""
 Asked = Callable[[Path, Manifests], Sequence[Diagnostic]]
 """What else is asked of a lab's folder and its manifests, in which nothing else is wrong."""
 

@@ -69,7 +69,8 @@ class Tunable:
 
     `unit`, `range`, `period`, `tolerance` and `resolution` belong to datatype `float`; `choices` to `choice`.
     `settle` is how long the value takes beyond the motion of its axis. `initial`: the value after power-up on the
-    simulated bench; without it the home of an axis, the low end of the range, false, `closed`, or the first choice.
+    simulated bench; without it the home of an axis, the center of a range that a person sets, the low end of another
+    one, false, `closed`, or the first choice.
     """
 
     datatype: Literal["float", "bool", "choice"] = "float"
@@ -503,7 +504,7 @@ Catalog = Mapping[str, ComponentType]
 
 
 _KEPT = 1024
-_made: dict[tuple[int, tuple[tuple[str, Any], ...]], tuple[ComponentType, ComponentType]] = {}
+_made: dict[tuple[int, str, tuple[tuple[str, Any], ...]], tuple[ComponentType, ComponentType]] = {}
 
 
 def with_parameters(kind: ComponentType, given: Mapping[str, Value]) -> ComponentType:
@@ -518,10 +519,19 @@ def with_restore(kind: ComponentType, given: Mapping[str, Restore]) -> Component
     return _kept(kind, given, _otherwise_restored)
 
 
+def with_mass(kind: ComponentType, mass: float) -> ComponentType:
+    """Return a type that weighs `mass` [kg], the same object for the same type and mass."""
+    return _kept(kind, {"mass": mass}, _weighing)
+
+
+def _weighing(kind: ComponentType, given: Mapping[str, Any]) -> ComponentType:
+    return replace(kind, geometry=replace(kind.geometry, mass=given["mass"]))
+
+
 def _kept(
     kind: ComponentType, given: Mapping[str, Any], make: Callable[[ComponentType, Mapping[str, Any]], ComponentType]
 ) -> ComponentType:  # fmt: skip
-    key = id(kind), tuple(sorted(given.items()))
+    key = id(kind), make.__name__, tuple(sorted(given.items()))
     found = _made.get(key)
     if found is None or found[0] is not kind:
         if len(_made) >= _KEPT:

@@ -14,7 +14,7 @@ from pico.model.catalog import (
 )
 from pico.model.goal import Claim, Goal
 from pico.model.pose import Pose
-from pico.model.quantities import Angle, Length, Value
+from pico.model.quantities import Angle, Length, Mass, Value
 from pico.model.record import record
 from pico.model.robot import Robot
 from pico.model.simulated import SimSettings
@@ -153,7 +153,7 @@ class Part:
     calibrations of its own when and how well they were measured: `{focal_length: {at: 2026-11-20, sigma: 0.2 mm}}`.
     `sample`: which one it holds (`WSe2-041`): no plan to a state moves it unless it is named. `dose_budget`: how much
     light that may have in all [mJ]. `formerly`: the names that the part had before, by which commits, recipes and
-    notes of then know it."""
+    notes of then know it. `mass`: its own [kg], where that is not its type's."""
 
     type: str
     marker: int | None = None
@@ -172,8 +172,11 @@ class Part:
     sample: str | None = None
     dose_budget: float | None = None
     formerly: tuple[str, ...] | None = None
+    mass: Mass | None = None
 
     def __post_init__(self) -> None:
+        if self.mass is not None and self.mass <= 0:
+            raise ValueError(f"`mass` is {self.mass:g} kg; it is above 0")
         if self.dose_budget is not None and (not self.sample or self.dose_budget <= 0):
             raise ValueError("a `dose_budget` is above 0 mJ, and of a part with a `sample`")
         if self.home is None and self.pose is None:

@@ -13,6 +13,7 @@ from pico.model.catalog import (
     SeatingKind,
     as_first_written,
     value_of,
+    with_mass,
     with_parameters,
     with_restore,
 )
@@ -38,12 +39,14 @@ class Setup:
     wiring: Wiring | None = None
 
     def type_of(self, component: str) -> ComponentType:
-        """Return the type of `component`, with the parameters that are the part's own and how it is restored; raises
-        KeyError for a part that the inventory does not have."""
+        """Return the type of `component`, with the parameters and the mass that are the part's own, and how it is
+        restored; raises KeyError for a part that the inventory does not have."""
         part = self.lab.inventory[component]
         kind = self.catalog[part.type]
         if part.restore:
             kind = with_restore(kind, part.restore)
+        if part.mass is not None:
+            kind = with_mass(kind, part.mass)
         return with_parameters(kind, part.parameters) if part.parameters else kind
 
     def ranges(self, component: str) -> bool:

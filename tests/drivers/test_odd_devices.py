@@ -12,7 +12,6 @@ from typing import Any
 
 import pytest
 
-from pico.backends.conversions import conversion_of
 from pico.diagnostics import PicoError
 from pico.drivers.driven import Motorized
 from pico.drivers.registry import Buses, driver
@@ -20,6 +19,7 @@ from pico.emulators.behind import Alone
 from pico.emulators.elliptec import KINDS, Mount, MountBus
 from pico.emulators.serving import Conversation, SerialServed, TcpServed
 from pico.manifest.load import load_folder
+from pico.model.instruments.conversions import conversion_of
 from pico.model.wiring import DeviceEntry, Wired
 from pico.resources import labs_dir
 

@@ -23,6 +23,7 @@ from pico.model.record import as_json
 from pico.model.setup import Setup
 from pico.model.state import Expectation
 from pico.model.trace.dose import Dose
+from pico.model.wiring import DeviceEntry, Wired, Wiring
 from pico.planning.alignment import Alignment
 from pico.policy import audit
 from pico.policy.audit import audit_key, judge, lit_by
@@ -38,16 +39,17 @@ DOSES = (Dose(sample="W1", component="holder", spent=9.0, power=0.0, budget=10.0
 
 def case(
     *operations: Operation, setup: Setup = SETUP, seen: Observation | None = None, base: Observation | None = None,
-    diagnostics: tuple[Diagnostic, ...] = (), target: Target | None = None, able: Any = None, **more: Any
+    diagnostics: tuple[Diagnostic, ...] = (), target: Target | None = None, able: Any = None, backend: str = "sim",
+    **more: Any,
 ) -> PlanCase:  # fmt: skip
     """Return a plan of operations on the bench as it is seen, before an edge that can do it."""
     seen = seen or observed(LICENSED)
     can: dict[str, Any] = {
-        "name": "sim", "fidelity": "kinematic", "evidence": "kinematic", "lab_digest": setup.digest(),
+        "name": backend, "fidelity": "kinematic", "evidence": "kinematic", "lab_digest": setup.digest(),
         "primitives": frozenset({"move", "set"}), "robots": ("arm1",),
     } | (able or {})  # fmt: skip
     plan = Plan(
-        lab=LabRef(name="minimal", digest=setup.digest()), backend="sim", fidelity="kinematic",
+        lab=LabRef(name="minimal", digest=setup.digest()), backend=backend, fidelity="kinematic",
         base=Base(state=live_state(setup, base or seen).as_json()), target=target or Target(),
         operations=operations or (ELSE,), diagnostics=diagnostics,
     )  # fmt: skip
@@ -57,6 +59,15 @@ def case(
 def sampled() -> Setup:
     part = replace(SETUP.lab.inventory["holder"], sample="W1", dose_budget=10.0)
     return replace(SETUP, lab=replace(SETUP.lab, inventory={**SETUP.lab.inventory, "holder": part}))
+
+
+def wired() -> Setup:
+    """The bench, whose exposure a device sets that goes to 2 ms."""
+    entry = DeviceEntry(
+        driver="scpi.number", of="cam", settings={"unit": "ms", "set": "EXP {value}"}, limits={"value": (0.0, 2.0)},
+        map={"exposure": Wired(property="value")},
+    )  # fmt: skip
+    return replace(SETUP, wiring=Wiring(lab="minimal", devices={"timer": entry}))
 
 
 def with_lab(**changes: Any) -> Setup:
@@ -78,6 +89,7 @@ REFUSED = {
     "errors": Refused(lambda: case(diagnostics=(Diagnostic("error", "range", "x"),)), "range", ExitCode.IMPOSSIBLE),
     "lab": Refused(lambda: case(able={"lab_digest": "other"}), "stale", ExitCode.STALE),
     "capability": Refused(lambda: case(able={"primitives": frozenset({"move"})}), "capability", ExitCode.ERROR),
+    "set-points": Refused(lambda: case(setup=wired(), backend="emulated"), "set-point", ExitCode.IMPOSSIBLE, said=True),
     "freshness": Refused(lambda: case(base=observed(cam={"exposure": 1.0}), seen=observed(cam={"exposure": 4.0})),
                          "stale", ExitCode.STALE),
     "expectations": Refused(lambda: case(target=Target(expect=(Expectation(that="cam.exposur > 0"),))),
@@ -119,7 +131,7 @@ def test_a_plan_that_nobody_finds_fault_with_passes_and_stays_as_it_is() -> None
 @pytest.mark.parametrize("name", REFUSED)
 def test_before_the_bench_is_taken_only_those_judge_who_need_not_see_it(name: str) -> None:
     made = replace(REFUSED[name].case(), present=None)
-    if name in ("errors", "lab", "capability"):
+    if name in ("errors", "lab", "capability", "set-points"):
         with pytest.raises(PicoError):
             require_permitted(made)
     else:

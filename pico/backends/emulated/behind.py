@@ -7,12 +7,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeGuard
 
 from pico.backends.attempt import Failed
-from pico.backends.conversions import conversion_of
 from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
 from pico.drivers.zaber_gantry import AXES, SCALE
 from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
 from pico.model.instruments.mapping import mapped

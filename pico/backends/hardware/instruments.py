@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, cast
 
-from pico.backends.conversions import conversion_of
 from pico.backends.hardware.settings import Settings
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.drivers.driven import Exposed
@@ -16,6 +15,7 @@ from pico.drivers.driver import Driver
 from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, SafetyInput
 from pico.drivers.stand_in import Lacking, StandIn
 from pico.model.instruments.conversion import Conversion
+from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import Driven, Measured, Point
 from pico.model.instruments.kinds import kind_of

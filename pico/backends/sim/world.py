@@ -141,8 +141,8 @@ def initial_values(kind: ComponentType) -> dict[str, ObservedValue]:
 
 
 def initial_value(tunable: Tunable) -> Value:
-    """Return the `initial` value, else the home of an axis, the low end of a range, false, `closed`, or the
-    first choice."""
+    """Return the `initial` value, else the home of an axis, the center of a range that a person sets, the low end of
+    another one, false, `closed`, or the first choice."""
     if tunable.initial is not None:
         return tunable.initial
     if tunable.datatype == "bool":
@@ -151,7 +151,10 @@ def initial_value(tunable: Tunable) -> Value:
         return "closed" if "closed" in tunable.choices else tunable.choices[0] if tunable.choices else ""
     if tunable.axis is not None:
         return tunable.axis.home
-    return tunable.range[0] if tunable.range else 0.0
+    if tunable.range is None:
+        return 0.0
+    low, high = tunable.range
+    return (low + high) / 2 if tunable.mover == "person" else low
 
 
 def put_down(setup: Setup, world: World, name: str, goal: Pose, one: PlacementError) -> tuple[Pose, Seat]:

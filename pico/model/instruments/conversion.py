@@ -53,6 +53,13 @@ class Conversion:
                 return min(max(one, low), high)
         return at
 
+    def reaches(self, value: float) -> bool:
+        """Return whether the device may be told what one of the lab's numbers becomes."""
+        if self.limits is None:
+            return True
+        low, high = self.limits
+        return low - _MARGIN <= self.to_device(value) <= high + _MARGIN
+
     def to_lab(self, value: float) -> float:
         """Return the lab's number for one of the device's; an angle beyond the range of the tunable as the same angle
         within it, if there is one by whole turns."""

@@ -10,6 +10,7 @@ from pico.diagnostics import Diagnostic, error
 from pico.geometry import capture_disc, separation
 from pico.model.pose import Pose
 from pico.motion.types import Blocked
+from pico.planning.checks.loads import overload
 from pico.planning.checks.target import Source, located
 from pico.planning.ordering.conflicts import Conflicts
 from pico.planning.ordering.paths import NoPath
@@ -27,7 +28,7 @@ def alone_refused(refused: Refusal, i: int, source: Source) -> Diagnostic:
         direct = [b for b in own if b.step.start == 0 and b.step.goal in mover.goals]
         return no_path(table, (direct or own)[0], source)
     if not mover.holds:
-        return _no_hand(table, mover.name)
+        return _no_hand(table, mover.name, source)
     for verb, places in (("picked up", (0,)), ("put down", mover.goals)):
         if all(table.grip(i, p, h) is None for p in places for h in mover.holds):
             return _no_grip(table, i, verb, places, source)
@@ -81,7 +82,9 @@ def _arms_at_ends(table: Conflicts, i: int) -> tuple[set[str], set[str]]:
     return start, goal
 
 
-def _no_hand(table: Conflicts, name: str) -> Diagnostic:
+def _no_hand(table: Conflicts, name: str, source: Source) -> Diagnostic:
+    if heavy := overload(table.setup, name, source):
+        return heavy
     if table.setup.lab.robots:
         return error("blocked", f"{name} can't be moved: no robot has its gripper free", address=name)
     hint = f"move it by hand, then `pico capture {name}`; or add an arm under `robots:` in lab.yaml"

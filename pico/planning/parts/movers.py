@@ -128,8 +128,9 @@ def with_storage(setup: Setup, mover: Mover, free: Sequence[str], wanted: Set[st
 
 
 def _holds(setup: Setup, name: str, robots: tuple[str, ...]) -> tuple[Hold, ...]:
-    grasp = setup.type_of(name).geometry.grasp
-    return tuple(Hold(robot, yaw) for robot in robots for yaw in (grasp.yaws if grasp else ()))
+    geometry, arms = setup.type_of(name).geometry, setup.lab.robots
+    able = (robot for robot in robots if not arms[robot].too_heavy(geometry.mass))
+    return tuple(Hold(robot, yaw) for robot in able for yaw in (geometry.grasp.yaws if geometry.grasp else ()))
 
 
 def obstacle(setup: Setup, name: str, part: ObservedComponent) -> Obstacle | None:

@@ -44,6 +44,16 @@ def _capability(case: PlanCase) -> Judgment:
     return Judgment(denials=tuple(incapacities(case.plan, case.able)), exit_code=ExitCode.ERROR)
 
 
+def _set_points(case: PlanCase) -> Judgment:
+    """Whether the bench's devices can be told the set-points of the plan, through their maps."""
+    if case.plan.backend == "sim":
+        return Judgment()
+    from pico.planning.checks.set_points import refused
+
+    wrong = tuple(refused(case.setup, case.plan.operations))
+    return Judgment(diagnostics=wrong, exit_code=ExitCode.IMPOSSIBLE)
+
+
 def _freshness(case: PlanCase) -> Judgment:
     """Whether the bench is as the plan assumes."""
     from pico.policy.freshness import staleness
@@ -140,6 +150,7 @@ JUDGES: tuple[Judge, ...] = (
     Judge("errors", _errors, looks=False),
     Judge("lab", _lab, looks=False),
     Judge("capability", _capability, looks=False),
+    Judge("set-points", _set_points, looks=False),
     Judge("freshness", _freshness),
     Judge("expectations", _expectations),
     Judge("licenses", _licenses),
