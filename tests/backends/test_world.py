@@ -64,7 +64,8 @@ def test_a_new_world_has_every_part_at_home_every_axis_homed_and_the_arm_parked(
 @pytest.mark.parametrize(
     ("kind", "first"),
     [
-        (Tunable(range=(2, 9)), 2), (Tunable(range=(2, 9), initial=5.0), 5.0), (Tunable(range=(2, 9), mover="person"), 5.5),
+        (Tunable(range=(2, 9)), 2), (Tunable(range=(2, 9), initial=5.0), 5.0),
+        (Tunable(range=(2, 9), mover="person"), 5.5),
         (Tunable(datatype="bool"), False), (Tunable(datatype="bool", initial=True), True),
         (Tunable(datatype="choice", choices=("a", "b")), "a"),
         (Tunable(datatype="choice", choices=("a", "b"), initial="b"), "b"),
