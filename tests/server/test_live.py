@@ -16,7 +16,10 @@ from edges import Connected, client, connected
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection
 
+from pico.backends.hardware.guard.ending import Closing, LightEnd
+from pico.backends.hardware.guard.note import Ended, Note, write
 from pico.drawing.scene.frames import Frame, decoded
+from pico.edge.live import following
 from pico.history.examples.example import make_example
 from pico.model.operation import Operation, Reason
 from pico.server.live import watching
@@ -114,6 +117,27 @@ def test_a_page_sees_what_is_pushed_turned_and_run_in_order(coordinator: Served,
     after = next(part for part in now["components"] if part["name"] == "p1")
     assert after["position"][0] == pytest.approx(pushed) and after["values"]["angle"]["value"] == 33.0
     assert after["pose"]["x"] == pytest.approx(pushed) and now["epoch"] == scene["epoch"]
+
+
+def test_a_page_hears_what_the_guard_ended_and_one_opened_later_reads_it(
+    coordinator: Served, edge: Connected, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(following, "LightGuarded", object)  # the simulated bench has no light to guard
+    ben = coordinator.person("ben", "viewer@shel")
+    dark = LightEnd(laser="laser", closings=(Closing(address="laser.shutter", dark=True),))
+    with watched(coordinator, ben) as page:
+        page.until_event("scene") if page.hello["epoch"] is None else page.hear()
+        before = coordinator.ask("GET", SCENE, ben)[1]
+        assert "guard" not in before
+        note = Note(ended=Ended(at="2026-11-24T12:00:00Z", why="door_box (door) is not safe", ends=(dark,)))
+        write(edge.edge.place, note)
+        event = page.until_event("guard")
+        (said,) = event["data"]["notices"]
+        assert "light of laser was ended" in said["summary"] and "door_box (door) is not safe" in said["summary"]
+        assert "laser.shutter" in said["detail"] and said["hint"] == "make the table safe, then let light out anew"
+        assert event["rev"] > before["rev"], "pages pass over what is not newer than their scene"
+    later = coordinator.ask("GET", SCENE, ben)[1]
+    assert later["guard"] == [said] and later["rev"] >= event["rev"]
 
 
 def test_many_watch_by_one_stream_which_ends_with_the_last(coordinator: Served, edge: Connected) -> None:

@@ -86,6 +86,32 @@ describe("what needs attention", () => {
   });
 });
 
+describe("light that the guard ended", () => {
+  const calm: Known = { status: null, scene: null, runs: [], line: "open", edge: "here", busy: false, asks: null };
+  const shut = { severity: "warning" as const, code: "guard", summary: "guard: light of laser was ended at 14:02:03 because door_box (door) is not safe", detail: "dark now: laser.shutter", hint: "make the table safe, then let light out anew" };
+  const scene = { components: [], beams: [], rev: 3 } as unknown as Scene;
+  it("is told with why, what is dark and what to do, as soon as the stream tells it", () => {
+    const now = changed(scene, { kind: "guard", rev: 4, data: { notices: [shut] } });
+    expect(needs({ ...calm, scene: now })).toEqual([{ tone: "bad", text: shut.summary, detail: shut.detail, mend: shut.hint, to: null }]);
+    const over = changed(now, { kind: "guard", rev: 5, data: { notices: [] } });
+    expect([over.rev, needs({ ...calm, scene: over, status: { rows: [], cut_short: [shut] } as unknown as Status })]).toEqual([5, []]);
+  });
+  it("is told by the status where the stream says nothing of a guard, and once", () => {
+    const status = { rows: [], cut_short: [shut] } as unknown as Status;
+    expect(needs({ ...calm, status, scene }).map((one) => one.text)).toEqual([shut.summary]);
+    expect(needs({ ...calm, status, scene: { ...scene, guard: [shut] } })).toHaveLength(1);
+  });
+  it("stands beside a run that was cut short, a device that can't be used, and no note", () => {
+    const killed = { severity: "warning", code: "cut-short", summary: "run r1 was killed", hint: "`pico resume` takes the run up again" };
+    const also = [{ ...killed, code: "goes-on" }, { ...killed, severity: "note", code: "dose" }, { ...killed, code: "table-lock", summary: "ada locked the bench", hint: "`pico lease unlock`" }];
+    const status = { rows: [], cut_short: [shut, killed, ...also], lacking: [{ ...killed, code: "driver", summary: "pm can't be used", hint: "install it" }] } as unknown as Status;
+    const runs = [{ id: "r1", number: 3, outcome: "interrupted", goal: "e1", cause: { kind: "apply" } }] as unknown as RunDocument[];
+    expect(needs({ ...calm, status, runs }).map((one) => [one.tone, one.text, one.to?.query.run ?? one.mend])).toEqual([
+      ["bad", shut.summary, shut.hint], ["bad", "run r1 was killed", "r1"], ["bad", "ada locked the bench", "`pico lease unlock`"], ["warn", "pm can't be used", "install it"],
+    ]);
+  });
+});
+
 describe("what is moved by hand", () => {
   const holes = { pitch: 25, first: [12.5, 12.5] } as never;
   it("ends at a hole, or at a tenth", () => {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import secrets
 from collections.abc import AsyncIterator
+from dataclasses import replace
 from typing import Any
 
 from pico.backends.device import LightGuarded
@@ -88,7 +89,10 @@ class _Following:
         now = notices(read(self._edge.place))
         if now == self._noted:
             return []
-        self._noted, rev = now, self._told.rev if self._told is not None else 0
+        self._noted, rev = now, 0
+        if self._told is not None:
+            self._told = replace(self._told, rev=self._told.rev + 1)
+            rev = self._told.rev
         return [{"told": "guard", "rev": rev, "data": {"notices": as_json(now)}}]
 
     def _events(self) -> list[Document]:

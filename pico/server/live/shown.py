@@ -43,6 +43,8 @@ class Shown:
         self.rev = rev
         if kind == "beams":
             self._scene["beams"] = data["beams"]
+        elif kind == "guard":
+            self._scene["guard"] = data["notices"]
         elif kind == "component":
             self._stands(data)
 

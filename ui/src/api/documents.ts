@@ -64,7 +64,7 @@ export interface StatusRow {
   note: string;
 }
 
-export interface Status { schema: "pico.status/v1"; lab: string; backend: string; head: string; observed_at: string; rows: StatusRow[] }
+export interface Status { schema: "pico.status/v1"; lab: string; backend: string; head: string; observed_at: string; rows: StatusRow[]; cut_short?: Diagnostic[]; lacking?: Diagnostic[] }
 
 export interface RunLine { id: string; outcome: string; evidence: string; seconds: number; tally: Record<string, number> }
 

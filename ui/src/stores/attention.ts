@@ -1,5 +1,6 @@
 /** What needs somebody's attention, and where it is mended. Pure: of what the page knows already. */
 
+import type { Diagnostic } from "../api/client";
 import type { RunDocument, Status, StatusRow } from "../api/documents";
 import type { Scene } from "../twin/scene";
 import type { Query, Tab } from "./address.svelte";
@@ -8,6 +9,8 @@ import { entitled } from "./say";
 export interface Need {
   tone: "bad" | "warn";
   text: string;
+  /** What else is known of it. */
+  detail?: string;
   /** What mends it. */
   mend: string;
   to: { tab: Tab; query: Partial<Record<Query, string>> } | null;
@@ -35,12 +38,28 @@ function listed(rows: StatusRow[]): string {
   return names.length > 3 ? `${names.slice(0, 3).join(", ")} and ${names.length - 3} more` : names.join(", ");
 }
 
+/** What the guard of light has to say: the stream tells that at once, a status as it was asked for last. */
+function guarded(status: Status | null, scene: Scene | null): Diagnostic[] {
+  return scene?.guard ?? (status?.cut_short ?? []).filter((one) => one.code === "guard");
+}
+
+/** What a status tells first besides: killed runs, faults of arms, the lock of a person at the table. */
+function interrupted(status: Status | null): Diagnostic[] {
+  return (status?.cut_short ?? []).filter((one) => one.severity !== "note" && !["guard", "goes-on"].includes(one.code));
+}
+
 /** What needs attention, the worst first. */
 export function needs({ status, scene, runs, line, edge, busy, asks }: Known): Need[] {
   const rows = status?.rows ?? [], found: Need[] = [];
   if (line === "lost") found.push({ tone: "bad", text: "The line to the coordinator is lost", mend: "it is tried again by itself", to: null });
   else if (edge === "away") found.push({ tone: "bad", text: "The bench's edge is not connected", mend: "start `pico edge` beside the table", to: null });
   if (asks) found.push({ tone: "warn", text: `A recipe waits for an answer: ${asks}`, mend: "answer it", to: { tab: "do", query: { act: "recipes" } } });
+  const guard = guarded(status, scene), cut = interrupted(status);
+  for (const one of guard) found.push({ tone: "bad", text: one.summary, detail: one.detail, mend: one.hint || "make the table safe", to: null });
+  for (const one of cut) found.push(one.code === "cut-short"
+    ? { tone: "bad", text: one.summary, detail: one.hint, mend: "look at the run", to: { tab: "runs", query: runs[0] ? { run: runs[0].id } : {} } }
+    : { tone: "bad", text: one.summary, detail: one.detail, mend: one.hint || "see `pico status`", to: null });
+  for (const one of status?.lacking ?? []) found.push({ tone: "warn", text: one.summary, detail: one.detail, mend: one.hint || "see `pico devices check`", to: null });
   for (const one of scene?.components ?? []) {
     const to = { tab: "inspect" as const, query: { part: one.name } };
     if (one.state === "lost") found.push({ tone: "bad", text: `${one.name}: nobody sees it`, mend: "look where it is", to });
@@ -48,7 +67,7 @@ export function needs({ status, scene, runs, line, edge, busy, asks }: Known): N
     else if (one.state === "held" && !busy) found.push({ tone: "bad", text: `${one.held_by ?? "A hand"} holds ${one.name}, and nothing goes on`, mend: "look at the run: Recover sets it down", to: { tab: "runs", query: runs[0] ? { run: runs[0].id } : {} } });
   }
   const last = runs[0];
-  if (last && !["", "done"].includes(last.outcome))
+  if (last && !["", "done"].includes(last.outcome) && !cut.some((one) => one.code === "cut-short"))
     found.push({ tone: "bad", text: `Run ${last.number} (${entitled(last)}) ended: ${last.outcome}`, mend: "look at the run", to: { tab: "runs", query: { run: last.id } } });
   const off = rows.filter((row) => row.off && !row.note);
   const kinds: [StatusRow[], (rows: StatusRow[]) => string][] = [

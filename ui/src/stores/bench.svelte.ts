@@ -1,6 +1,6 @@
 /** The bench that the page shows: its scene, its line, who has it, and the red button. */
 
-import { ask, filled, Refused } from "../api/client";
+import { ask, filled, Refused, type Diagnostic } from "../api/client";
 import { decode, type Frame } from "../live/frame";
 import { Line } from "../live/line";
 import { changed, read, type Scene } from "../twin/scene";
@@ -121,6 +121,7 @@ class Bench {
     else if (said.kind === "lease") void this.look();
     else if (hole || said.kind === "scene" || said.epoch !== this.scene?.epoch) void this.#snapshot();
     else if (said.rev > this.scene.rev) this.scene = changed(this.scene, said);
+    if (said.kind === "guard") told.wrong((said.data as { notices: Diagnostic[] }).notices);
     for (const hears of this.#events) hears(said);
   }
 

@@ -1,5 +1,6 @@
 /** What `GET …/scene` tells of a bench: `pico.scene/v1`. Millimetres, radians, quaternions w x y z. */
 
+import type { Diagnostic } from "../api/client";
 import type { Pose, Value } from "../api/documents";
 
 export type Vec = [number, number, number];
@@ -120,6 +121,8 @@ export interface Scene {
   arms: Arm[];
   components: Component[];
   beams: Beam[];
+  /** What the guard of light has to say, the most urgent first; absent while it said nothing yet. */
+  guard?: Diagnostic[];
 }
 
 /** The scene as it was told; throws where it is none that this page reads. */
@@ -129,9 +132,10 @@ export function read(said: unknown): Scene {
   return found;
 }
 
-/** The scene after something changed: a component stands otherwise, or is new; light runs otherwise. */
+/** The scene after something changed: a component, the light, or what its guard has to say. */
 export function changed(scene: Scene, event: { kind: string; rev: number; data: unknown }): Scene {
   if (event.kind === "beams") return { ...scene, rev: event.rev, beams: (event.data as { beams: Beam[] }).beams };
+  if (event.kind === "guard") return { ...scene, rev: event.rev, guard: (event.data as { notices: Diagnostic[] }).notices };
   if (event.kind !== "component") return scene;
   const news = event.data as Component;
   const known = scene.components.some((one) => one.index === news.index);
