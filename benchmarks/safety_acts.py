@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -63,9 +64,29 @@ class Act:
         self.measuring()
 
 
-def main(lab: str, state: str) -> None:
-    """Keep a bench in a state until something ends that, or this process."""
-    with Bench.open(Path(lab), backend="hardware") as bench:
+def refuses_teleoperation(lab: Path, backend: str) -> bool:
+    """Return whether a bench refuses the plan of a teleoperation, made in the simulator, and has begun no run of it."""
+    with Bench.open(lab, backend="sim", fidelity="kinematic") as simulated:
+        plan = simulated.teleop("lens", "pose").plan
+    with Bench.open(lab, backend=backend) as bench:
+        able, before = bench.wait(bench.edge.describe()), _runs(bench)
+        try:
+            bench.apply(replace(plan, backend=able.name, fidelity=able.fidelity).sealed())
+        except PicoError as exc:
+            refused = [one.summary for one in exc.diagnostics if one.code == "capability"]
+            return _runs(bench) == before and any("cannot teleoperate lens" in text for text in refused)
+    return False
+
+
+def _runs(bench: Bench) -> int:
+    memory = bench.edge.memory
+    return len(memory.runs()) if memory is not None else 0
+
+
+def main(lab: str, state: str, backend: str = "hardware") -> None:
+    """Keep a bench in a state until something ends that, or this process; without a `backend` the one that is chosen in
+    the checkout."""
+    with Bench.open(Path(lab), backend=backend or None) as bench:
         act: Callable[[], None] = getattr(Act(bench), state)
         try:
             act()

@@ -32,6 +32,7 @@ from typing import Any
 ROOT = Path(__file__).resolve().parent.parent
 sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 
+from safety_acts import refuses_teleoperation  # noqa: E402
 from safety_world import BENCHES  # noqa: E402
 
 from pico.backends.hardware.guard.note import notices, read  # noqa: E402
@@ -47,7 +48,9 @@ FAULTS = {
 }  # fmt: skip
 """Each fault with the safety input that is pulled in it. Once PICO is killed, the client that is, a door opens."""
 STATES = ("idle", "measuring", "moving", "optimizing", "unattended")
-"""What the bench does. No driver of an arm makes the small steps of a teleoperation yet, so that is not measured."""
+"""What the bench does."""
+REFUSED = ("teleoperating",)
+"""What no bench with devices does: its plan is refused before anything begins."""
 LASERS = {"laser": "with shutter", "bare": "without shutter"}
 WATCHDOG = 1.0
 """The dead-man of shutters and lasers [s]."""
@@ -217,11 +220,13 @@ class Chain:
 
 def table() -> str:
     """Return what docs/how-to/laser-safety.md says of each cell, as Markdown."""
-    lines = [f"| fault | laser | {' | '.join(STATES)} |", f"|---|---|{'---|' * len(STATES)}"]
+    states = (*STATES, *REFUSED)
+    lines = [f"| fault | laser | {' | '.join(states)} |", f"|---|---|{'---|' * len(states)}"]
     for fault, laser in product(FAULTS, LASERS.values()):
         sure, bare = bar(fault, dead_man=True), bar(fault, dead_man=False)
         said = f"{sure:g} s" if bare is not None else f"{sure:g} s; **stays on**"
-        lines.append(f"| {fault} | {laser} | {' | '.join([said] * len(STATES))} |")
+        cells = [*[said] * len(STATES), *["refused"] * len(REFUSED)]
+        lines.append(f"| {fault} | {laser} | {' | '.join(cells)} |")
     can, cannot = list[str](), list[str]()
     for name in sorted(known()):
         if driver(name).kind in ("laser", "shutter"):
@@ -243,7 +248,7 @@ def main() -> int:
         print(table())
         return 0
     os.environ["PICO_EMULATED_PACE"] = "10"
-    cells = list[Cell]()
+    cells, wrong = list[Cell](), list[str]()
     with tempfile.TemporaryDirectory() as folder:
         for number, (kind, dead_man) in enumerate(product(asked.benches, (True, False)[: 2 - asked.only_dead_man])):
             faults = asked.faults if dead_man else [fault for fault in asked.faults if fault in GUARDLESS]
@@ -251,12 +256,14 @@ def main() -> int:
                 continue
             chain = Chain(Path(folder) / f"lab{number}", dead_man=dead_man, kind=kind)
             try:
+                if BENCHES[kind] and not refuses_teleoperation(chain.lab, "hardware"):
+                    wrong.append("a teleoperation was not refused")
                 for fault, state in product(faults, [s for s in asked.states if s != "moving" or BENCHES[kind]]):
                     cells.append(chain.cell(fault, state))
                     _show(cells[-1])
             finally:
                 chain.close()
-    return _judged(cells)
+    return _judged(cells, wrong)
 
 
 def _show(cell: Cell) -> None:
@@ -265,7 +272,7 @@ def _show(cell: Cell) -> None:
     print(f"{cell.bench}: {cell.fault} x {cell.state}{how}: {said}{'' if cell.told else '; nothing told'}", flush=True)
 
 
-def _judged(cells: list[Cell]) -> int:
+def _judged(cells: list[Cell], wrong: list[str]) -> int:
     print()
     for fault in FAULTS:
         times = [t for c in cells if c.fault == fault and c.dead_man for t in c.ended.values() if t is not None]
@@ -273,7 +280,7 @@ def _judged(cells: list[Cell]) -> int:
             print(f"{fault}: {len(times)} lasers went dark, the last one after {max(times):.2f} s")
     on = [c for c in cells if None in c.ended.values()]
     print(f"light stayed on in {len(on)} of {len(cells)} cells: " + ", ".join(f"{c.fault} x {c.state}" for c in on))
-    wrong = [one for cell in cells for one in cell.wrong]
+    wrong += [one for cell in cells for one in cell.wrong]
     print("\n".join(["", *wrong]) if wrong else "every bar was met")
     return 3 if wrong else 0
 

@@ -74,6 +74,7 @@ SMALLEST = {
     "predicted": "--transitions 1 --labs labs/minimal",
     "runs": "--faults 2 --interrupts 2 --pairs 1 --journal 20 --scheduler 1",
     "safety_chain": "--faults door --states idle --only-dead-man",
+    "safety_network": "--links silent --states idle",
     "scale": "--components 40 --moves 6 --check",
     "scan": "--looks 1 --lab labs/minimal",
     "set_points": "--threads 1 --seconds 1 --inline",

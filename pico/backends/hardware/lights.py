@@ -107,16 +107,23 @@ class Lights(Told):
 
     async def end(self, why: str, by: str) -> Ended:
         """End all light now, because of `why`; return what became of each laser, and keep that."""
-        ends = list(await end_light((*self.lights(), *self._loose())))
-        known = {one.laser for one in ends}
-        ends += [LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known]
-        ended = Ended(at=clock.now(), why=why, by=by, ends=tuple(one for one in ends if one.laser))
+
+        def now(ends: tuple[LightEnd, ...]) -> Ended:
+            known = {one.laser for one in ends}
+            loose = (LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known)
+            return Ended(at=clock.now(), why=why, by=by, ends=(*(one for one in ends if one.laser), *loose))
+
+        ends = await end_light((*self.lights(), *self._loose()), lambda ends: self._note(now(ends)))
+        ended = now(ends)
         if ended.ends:
             await asyncio.to_thread(self._tell, ended, None)
         return ended
 
-    def _tell(self, ended: Ended, trip: Trip | None) -> None:
+    def _note(self, ended: Ended) -> None:
         self._kept(lambda note: replace(note, ended=ended))
+
+    def _tell(self, ended: Ended, trip: Trip | None) -> None:
+        self._note(ended)
         if self.listening is not None:
             self.listening(ended, trip)
 
@@ -136,6 +143,10 @@ class Lights(Told):
         if self.session is not None:
             self.session(trip)
 
+    def slow(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
+        if self._outcome is None:  # else it is told already that it could not be ended
+            self._note(Ended(at=clock.now(), why=trip.said, ends=ends))
+
     def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
         ended = Ended(at=clock.now(), why=trip.said, ends=ends)
         outcome = [(end.laser, end.is_dark) for end in ends], [cause.name for cause in trip.causes]
@@ -145,6 +156,9 @@ class Lights(Told):
         self._tell(ended, trip)
 
     def lit(self, lasers: tuple[str, ...]) -> None:
+        if lasers and self._dark:
+            self._outcome = None
+
         def changed(note: Note) -> Note:
             if not lasers:
                 return replace(note, watch=None)

@@ -10,10 +10,11 @@ from typing import TypeVar
 from pico.backends.hardware.clearing import fault_warnings
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.last_seen import Taken
-from pico.diagnostics import Diagnostic, PicoError, warning
-from pico.drivers.driven import UNKNOWN
+from pico.diagnostics import Diagnostic, PicoError, error, warning
+from pico.drivers.driven import UNKNOWN, Emitting, Shut
 from pico.drivers.protocols import Grip, SafetyState
 from pico.model.catalog import Grasp
+from pico.model.instruments.kind import Driven
 from pico.model.observation import LACKING, LOST, Observation, ObservedComponent, ObservedRobot, ObservedValue
 from pico.model.setup import Setup
 from pico.motion.kinematics import tool_of
@@ -21,6 +22,8 @@ from pico.motion.types import Joints
 from pico.twin.arms import TwinArm
 
 T = TypeVar("T")
+LIGHT_ANSWERS = 1.0
+"""How long is waited for what a laser or a shutter reads [s]; the guard counts it as silent before that."""
 AT_TABLE = ("door", "curtain")
 """Safety inputs that say whether somebody is at the table."""
 
@@ -44,7 +47,7 @@ async def told(bench: Instruments) -> Told:
     states, grips, values, inputs = await asyncio.gather(
         _every({name: arm.state() for name, arm in bench.arms.items()}),
         _every({name: gripper.grip() for name, gripper in bench.grippers.items()}),
-        _every({address: one.read() for address, one in bench.tunables.items()}),
+        _every({address: _read(address, one) for address, one in bench.tunables.items()}),
         _every({name: one.read() for name, (_, one) in bench.inputs.items()}),
     )
     if lost := [d for found in (states, grips) for exc in found.values() if isinstance(exc, PicoError)
@@ -69,6 +72,16 @@ async def told(bench: Instruments) -> Told:
         inputs={n: SafetyState(safe=None, age=0.0) if isinstance(s, PicoError) else s for n, s in inputs.items()},
         problems=tuple(problems),
     )
+
+
+async def _read(address: str, one: Driven) -> ObservedValue:
+    """Return what a tunable reads. Who asks whether light is out is not kept waiting by a dead link."""
+    if not isinstance(one, Emitting | Shut):
+        return await one.read()
+    try:
+        return await asyncio.wait_for(one.read(), LIGHT_ANSWERS)
+    except TimeoutError:
+        raise PicoError(error("late", f"it did not answer within {LIGHT_ANSWERS:g} s", address=address)) from None
 
 
 async def _every(asked: Mapping[str, Awaitable[T]]) -> dict[str, T | PicoError]:

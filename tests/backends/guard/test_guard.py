@@ -10,13 +10,17 @@ from pathlib import Path
 import pytest
 from boxes import INPUTS, guarded, until
 
+from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.backends.hardware.guard.hearing import HELD, SILENT, Hearing
 from pico.backends.hardware.guard.note import Note, notices, read, watching, write
+from pico.backends.hardware.guard.verdict import Cause, Trip
 from pico.base.awake import Awake
 from pico.diagnostics import PicoError
 
 BAR, LOST = 0.5, 1.0
 """Within which light ends [s]: of an unsafe input, and of one whose link was lost."""
+TOLD = 1.5
+"""Within which a bench says what it could not close [s]: its coordinator, within 2 s."""
 
 
 @pytest.mark.parametrize("name", [name for name, kind in INPUTS.items() if kind != "curtain"])
@@ -47,12 +51,34 @@ def test_a_box_that_hangs_up_ends_light(tmp_path: Path) -> None:
 
 def test_what_could_not_be_closed_is_told_and_closed_once_it_can(tmp_path: Path) -> None:
     with guarded(tmp_path) as rig:
+        began = time.monotonic()
         rig.lasers.frozen = True
+        rig.inputs.put("door_box", False)
         until(lambda: read(rig.place).ended is not None, 6.0)
-        assert any("MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+        assert time.monotonic() - began < TOLD, "no device that is silent may keep it from being told"
+        said = " ".join(one.summary for one in notices(read(rig.place)))
+        assert "laser MAY STILL EMIT" in said and "bare MAY STILL EMIT" in said
+        assert "door_box (door) is not safe" in said and "it has not answered for 0.6 s" in said
         assert rig.lit() == {"laser": True, "bare": True}
+        until(lambda: "it did not answer within" in str(notices(read(rig.place))), 6.0)
         rig.lasers.frozen = False
         rig.ends_within(5.0)
+
+
+def test_the_same_failure_is_told_again_of_light_that_was_let_out_anew(tmp_path: Path) -> None:
+    silent = LightEnd(laser="bare", closings=(Closing(address="bare.emission", dark=False, wrong="it is silent"),))
+    trip = Trip(causes=(Cause(name="door_box", kind="door", why="is not safe"),), lasers=("bare",), stops_arms=False)
+    with guarded(tmp_path, watch=False) as rig:
+        for _ in range(2):
+            rig.lights.lit(())
+            rig.lights.lit(("bare",))
+            assert read(rig.place).ended is None
+            rig.lights.ended(trip, (silent,))
+            assert any("MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+            told = read(rig.place)
+            rig.lights.slow(trip, (silent,))
+            rig.lights.ended(trip, (silent,))
+            assert read(rig.place) == told, "a try in vain is told once"
 
 
 @pytest.mark.parametrize(

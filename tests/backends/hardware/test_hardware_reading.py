@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -11,7 +12,7 @@ import pytest
 from bench_at import bench_at
 from emulated_lab import wired_lab
 
-from pico.backends.hardware import device
+from pico.backends.hardware import device, reading
 from pico.backends.hardware.device import HardwareDevice
 from pico.backends.hardware.instruments import Instruments, require_whole, unwired, wired
 from pico.backends.hardware.links import Links
@@ -19,11 +20,11 @@ from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.settings import Settings
 from pico.backends.last_seen import Taken
 from pico.diagnostics import PicoError, error
-from pico.drivers.driven import Motorized
+from pico.drivers.driven import Emitting, Motorized
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.drivers.registry import Buses, driver
 from pico.model.instruments.conversion import conversion
-from pico.model.observation import Observation
+from pico.model.observation import Observation, ObservedValue
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
@@ -42,6 +43,24 @@ class One:
         return self.reads
 
     state = grip = position = read
+
+
+def test_a_laser_that_answers_nothing_keeps_no_look_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Silent:
+        async def emitting(self) -> bool:
+            await asyncio.sleep(5.0)
+            return True
+
+    monkeypatch.setattr(reading, "LIGHT_ANSWERS", 0.05)
+    bench = Instruments()
+    bench.tunables["laser.emission"] = Emitting(Silent())  # type: ignore[arg-type]
+    bench.tunables["p1.angle"] = One(ObservedValue(value=3.0))  # type: ignore[assignment]
+    began = time.monotonic()
+    found = asyncio.run(told(bench))
+    assert time.monotonic() - began < 2.0
+    assert found.values["laser.emission"].value is None and found.values["p1.angle"].value == 3.0
+    (problem,) = found.problems
+    assert problem.address == "laser.emission" and "it did not answer within 0.05 s" in problem.summary
 
 
 LOST = PicoError(error("device-lost", "it did not answer within 2 s", address="p1_mount"))

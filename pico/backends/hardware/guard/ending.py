@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Iterable, Mapping
+from collections.abc import Awaitable, Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from pico.diagnostics import PicoError
@@ -12,6 +12,8 @@ from pico.model.record import record
 
 PATIENCE = 2.5
 """How long one device may take to end its light [s]; the others do not wait for it."""
+SOON = 0.6
+"""After how long a device that did not answer is told of, though it may answer still [s]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,18 +54,42 @@ class LightEnd:
         return "; ".join(f"{one.address}: {one.wrong}" for one in self.closings if one.wrong)
 
 
-async def end_light(lights: Iterable[Light]) -> tuple[LightEnd, ...]:
+async def end_light(
+    lights: Iterable[Light], slow: Callable[[tuple[LightEnd, ...]], object] | None = None
+) -> tuple[LightEnd, ...]:
     """Close the shutters of these lasers and switch off their emission, at once, and return what became of each; waits
-    for no device longer than PATIENCE."""
-    return tuple(await asyncio.gather(*(_end(light) for light in lights)))
+    for no device longer than PATIENCE. `slow`: is given the state of all after SOON if a device did not answer by then.
+    """
+    jobs = [(light.laser, _begun(light)) for light in lights]
+    tasks = [task for _, closings in jobs for task in closings.values()]
+    _, late = await asyncio.wait(tasks, timeout=SOON) if tasks else (None, None)
+    if late and slow is not None:
+        slow(_ends(jobs))
+    if late:
+        await asyncio.wait(late)
+    return _ends(jobs)
 
 
-async def _end(light: Light) -> LightEnd:
-    jobs = [_closed(address, shutter.open(False)) for address, shutter in light.shutters.items()]
+def _begun(light: Light) -> dict[str, asyncio.Task[Closing]]:
+    work = {address: shutter.open(False) for address, shutter in light.shutters.items()}
     if light.emission is not None:
         address, laser = light.emission
-        jobs.append(_closed(address, laser.emit(False)))
-    return LightEnd(laser=light.laser, closings=tuple(await asyncio.gather(*jobs)))
+        work[address] = laser.emit(False)
+    return {address: asyncio.create_task(_closed(address, closing)) for address, closing in work.items()}
+
+
+def _ends(jobs: Iterable[tuple[str, Mapping[str, asyncio.Task[Closing]]]]) -> tuple[LightEnd, ...]:
+    waits = f"it has not answered for {SOON:g} s"
+    return tuple(
+        LightEnd(
+            laser=laser,
+            closings=tuple(
+                task.result() if task.done() else Closing(address=address, dark=False, wrong=waits)
+                for address, task in closings.items()
+            ),
+        )
+        for laser, closings in jobs
+    )
 
 
 async def _closed(address: str, work: Awaitable[bool]) -> Closing:

@@ -58,6 +58,9 @@ class Told:
     def trips(self, trip: Trip) -> None:
         """Hear, before anything is closed, that light ends; must return at once."""
 
+    def slow(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
+        """Hear how each laser stands while a device has not answered yet that is to end its light."""
+
     def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
         """Hear what became of each laser."""
 
@@ -209,7 +212,10 @@ class Guard:
             }
             arms = own.arms() if trip.stops_arms else ()
             others = [asyncio.create_task(_stopped(arm)) for arm in arms]
-            ends = await end_light([*lights, Light("", None, spare)])
+            ends = await end_light(
+                [*lights, Light("", None, spare)],
+                lambda now: self._told.slow(trip, tuple(end for end in now if end.laser)),
+            )
             await asyncio.gather(*others)
             now = self._clock()
             for closing in (closing for end in ends for closing in end.closings if closing.dark):
