@@ -10,7 +10,7 @@ import json
 import math
 import random
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -91,6 +91,26 @@ def other_number(reply: bytes, draw: random.Random) -> bytes:
     return draw.choice(forms).encode() + draw.choice([b"\n", b"\r\n"])
 
 
+def scpi_choice(names: Mapping[str, str]) -> Callable[[bytes, bytes, Any], Allowed]:
+    """The number of a position as <NRf>, IEEE 488.2, 7.7.2; `names` of them by their numbers."""
+
+    def says(sent: bytes, true: bytes, _: Any) -> Allowed:
+        line = _line(sent)
+        found = None if line is None else _scanned(line.strip(" \t\r"))
+        name = next((name for code, name in names.items() if found == int(code)), None)
+        return NOTHING if name is None else Allowed(name, unknown=sent != true)
+
+    return says
+
+
+def other_choice(reply: bytes, draw: random.Random) -> bytes:
+    """Another form of the same number."""
+    code = int(reply)
+    return draw.choice([f"{code}", f"+{code}", f"{code}.0", f"{code}E+0", f"{code / 10:.1f}E1"]).encode() + draw.choice(
+        [b"\n", b"\r\n"]
+    )
+
+
 def scpi_switch(sent: bytes, _: bytes, __: Any) -> Allowed:
     """<Boolean> as it is answered: 1 or 0; some say ON or OFF."""
     line = _line(sent)
@@ -111,7 +131,7 @@ def _counted(sent: bytes, true: bytes) -> bool | None:
     """Return the state in `state,count`, whose count is above that of every answer before."""
     line = _line(sent)
     state, comma, count = (line or "").strip(" \t\r").partition(",")
-    state = state.strip(" \t")  # IEEE 488.2, 7.4.1.2: blanks may stand around a separator
+    state = state.strip(" \t\r")  # IEEE 488.2, 7.4.1.2: white space, CR included, may stand around a separator
     newest = int(true.strip().split(b",")[1])
     if not comma or state not in ("0", "1") or not count or any(c not in DIGITS for c in count):
         return None
@@ -163,6 +183,25 @@ def elliptec(per: float) -> Callable[[bytes, bytes, Any], Allowed]:
         return Allowed(value * per, unknown=sent != true)
 
     return says
+
+
+def slider(names: Mapping[str, str], travel: int) -> Callable[[bytes, bytes, Any], Allowed]:
+    """The same of a slider, in mm: its positions are evenly spread over its `travel` [mm], and it may read up to 2 mm
+    beside one. `names` of them by their numbers."""
+    places = {name: (int(number) - 1) * travel / (len(names) - 1) for number, name in names.items()}
+
+    def says(sent: bytes, true: bytes, value: Any) -> Allowed:
+        found = elliptec(1.0)(sent, true, value)
+        name = next((n for n, at in places.items() if found.value is not None and abs(found.value - at) <= 2), None)
+        return NOTHING if name is None else Allowed(name, unknown=sent != true)
+
+    return says
+
+
+def other_slider(reply: bytes, draw: random.Random) -> bytes:
+    """The same, up to 2 mm beside."""
+    at = int(reply[3:11], 16) + draw.choice([0, 1, 2, -1, -2])
+    return reply[:3] + f"{at & 0xFFFFFFFF:08X}".encode() + reply[11:]
 
 
 def zaber(counts: float) -> Callable[[bytes, bytes, Any], Allowed]:

@@ -10,9 +10,10 @@ grammar of the vendor's manual, in `wire_grammars.py`, which shares nothing with
 gives that value, or says that it is unknown and why; a valid reply must be taken. It is wrong with another number, with
 an error that is no diagnostic, and if it does not read a clean reply afterwards.
 
-Not covered: the arm and its gripper (binary frames of the vendor's library), Basler and RealSense (no wire to edit).
-Prints a line for each driver, then the wrong ones. Exit code 1: something was wrong. `--plant`: a fault put into the
-drivers, which has to be found (exit code 1).
+The arm and its gripper speak binary frames (`wire_xarm.py`). Basler and RealSense have no wire to edit: stand-ins for
+the vendors' libraries give damaged results (`wire_cameras.py`). Prints a line for each driver, then the wrong ones.
+Exit code 1: something was wrong. `--plant`: a fault put into the drivers (`wire_plants.py`), which has to be found
+(exit code 1). `--plants` tries every planted fault on each driver that it is in, and fails if one is not found.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from __future__ import annotations
 import argparse
 import asyncio
 import random
+import subprocess
 import sys
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -28,39 +30,18 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-import wire_grammars as grammar
+from wire_cases import CASES, UNKNOWN, Case
 from wire_grammars import Allowed
+from wire_plants import PLANTS
 
 from pico.diagnostics import PicoError
-from pico.drivers import judging
 from pico.drivers.registry import Buses
 from pico.emulators import serving
 from pico.emulators.behind import Alone
 from pico.emulators.registry import emulator
 from pico.model.wiring import DeviceEntry
 
-WHO = {"vendor": "Acme", "model": "M1", "serial": "S42", "firmware": "1.2"}
 NOISE = b"0123456789+-.,:;?@ EeAOPNF\r\n\t\"'{}[]_xX\x00\x7f\x80\xff"
-UNKNOWN = object()
-"""What a driver says that does not know."""
-
-
-@dataclass(frozen=True)
-class Case:
-    """A driver: its entry, what its emulator has at first, the `question` whose reply is replaced, how it is read, a
-    new value for the world behind it, and what the grammar says of a reply (bytes, the true reply, the value)."""
-
-    entry: DeviceEntry
-    at_first: dict[str, Any]
-    question: Callable[[bytes], bool]
-    read: Callable[[Any], Any]
-    draw: Callable[[random.Random], tuple[str, Any]]
-    says: Callable[[bytes, bytes, Any], Allowed]
-    forms: Callable[[bytes, random.Random], bytes] = lambda reply, _: reply
-    """Another form of a valid reply that the grammar allows."""
-    others: tuple[bytes, ...] = ()
-    first: Callable[[Any], Any] | None = None
-    """What is done once before it is read, such as homing."""
 
 
 @dataclass
@@ -73,129 +54,30 @@ class Forger:
     last: bytes = b""
     """The last true reply to the question."""
 
+    def passed(self, asked: bytes, said: bytes) -> bytes:
+        """Return what is sent in place of the true reply to a request."""
+        if not said or not self.question(asked):
+            return said
+        self.last = said
+        if self.forge is None:
+            return said
+        forge, self.forge = self.forge, None
+        self.sent.append((said, forge(said)))
+        return self.sent[-1][1]
+
     def around(self, made: Any) -> Any:
         """Return a conversation whose replies are passed through."""
         forger = self
 
         class Around:
             def heard(self, data: bytes) -> bytes:
-                said: bytes = made.heard(data)
-                if said and forger.question(data):
-                    forger.last = said
-                if said and forger.forge is not None and forger.question(data):
-                    forge, forger.forge = forger.forge, None
-                    forged = forge(said)
-                    forger.sent.append((said, forged))
-                    return forged
-                return said
+                return forger.passed(data, made.heard(data))
 
             def due(self) -> bytes:
                 found: bytes = made.due()
                 return found
 
         return Around()
-
-
-async def _number(found: Any) -> Any:
-    value = getattr(found, "value", found)
-    return UNKNOWN if value is None else value
-
-
-async def _meter(meter: Any) -> Any:
-    return await _number(await meter.power())
-
-
-async def _axis(axis: Any) -> Any:
-    return await _number(await axis.position())
-
-
-async def _safety(one: Any) -> Any:
-    found = (await one.read()).safe
-    return UNKNOWN if found is None else found
-
-
-def _power(draw: random.Random) -> tuple[str, Any]:
-    return "power", draw.choice([0.0, -1e-9, 10 ** draw.uniform(-9, 0), draw.uniform(0, 1)])
-
-
-def _truth(what: str) -> Callable[[random.Random], tuple[str, Any]]:
-    return lambda draw: (what, draw.random() < 0.5)
-
-
-def _frame(draw: random.Random) -> tuple[str, Any]:
-    shape = draw.choice([(4, 6), (3, 2, 3), (1, 1)])
-    size = int(np.prod(shape))
-    kind = draw.choice([np.uint8, np.uint16])
-    return "frame", np.array([draw.randrange(256) for _ in range(size)], kind).reshape(shape)
-
-
-def _asks(word: bytes) -> Callable[[bytes], bool]:
-    return lambda data: word in data
-
-
-def _box(driver: str) -> DeviceEntry:
-    return DeviceEntry(driver=driver, emulator="switches", address={"host": "", "port": 0, "name": "s1"})
-
-
-def _visa(driver: str, stands_in: str, **address: int) -> DeviceEntry:
-    return DeviceEntry(driver=driver, emulator=stands_in, address={"visa": "", **address}, identity=WHO)
-
-
-def _elliptec(driver: str, model: str) -> DeviceEntry:
-    address: dict[str, str | int] = {"port": "", "bus": "2"}
-    return DeviceEntry(
-        driver=driver, emulator="elliptec", address=address, identity={"serial": "11400517", "model": model}
-    )
-
-
-ODD = (b"9.9E37\n", b"-9.90000E+37\n", b"9.91E37\n", b"NAN\n", b"inf\n", b"OVLD\n", b"\n", b'-113,"Undefined header"\n')
-BAD = (b"\n", b"what?\n", b"1", b"? 1\n", b"999 1\n", b"1 1 1\n")
-CASES: dict[str, Case] = {
-    "scpi.meter": Case(
-        _visa("scpi.meter", "scpi.meter"), {}, _asks(b"MEAS:POW?"), _meter, _power, grammar.scpi_number,
-        grammar.other_number, ODD),
-    "pymeasure.pm100": Case(
-        _visa("pymeasure.pm100", "scpi.meter"), {}, _asks(b"POW"), _meter, _power, grammar.scpi_number,
-        grammar.other_number, ODD),
-    "scpi.laser": Case(
-        _visa("scpi.laser", "scpi.laser"), {}, _asks(b"OUTP?"), lambda one: one.emitting(), _truth("emission"),
-        grammar.scpi_switch, grammar.other_switch, ODD),
-    "scpi.safety": Case(
-        _visa("scpi.safety", "scpi.contacts", channel=4), {}, _asks(b"INP?"), _safety, _truth("contact"),
-        grammar.contact, others=(b"1\n", b"1,1\n", b"1,0\n", b",\n", *ODD)),
-    "scpi.shutter": Case(
-        _visa("scpi.shutter", "scpi.contacts", channel=3, relay=1), {}, _asks(b"INP?"), lambda one: one.is_open(),
-        _truth("open"), grammar.contact_of_shut, others=(b"1\n", b"1,1\n", b"0,0\n", *ODD)),
-    "switches.input": Case(_box("switches.input"), {}, _asks(b"read"), _safety, _truth("safe"),
-                           grammar.switch_of_input,
-                           others=BAD),
-    "switches.shutter": Case(_box("switches.shutter"), {}, _asks(b"read"), lambda one: one.is_open(), _truth("open"),
-                             grammar.switch, others=BAD),
-    "switches.laser": Case(_box("switches.laser"), {}, _asks(b"read"), lambda one: one.emitting(), _truth("emission"),
-                           grammar.switch, others=BAD),
-    "elliptec.rotator": Case(
-        _elliptec("elliptec.rotator", "ELL14"), {"angle": 0.0}, _asks(b"2gp"), _axis,
-        lambda draw: ("angle", draw.uniform(0, 359)), grammar.elliptec(360.0 / 143360),
-        others=(b"2GS09\r\n", b"2GS02\r\n", b"3PO00001000\r\n", b"2PO0000\r\n", b"\r\n", b"2PO"),
-        first=lambda axis: axis.home()),
-    "elliptec.stage": Case(
-        _elliptec("elliptec.stage", "ELL20"), {"position": 0.0}, _asks(b"2gp"), _axis,
-        lambda draw: ("position", draw.uniform(0, 59)), grammar.elliptec(1 / 1024.0),
-        others=(b"2GS09\r\n", b"3PO00001000\r\n", b"2PO0000\r\n", b"2GJ00000400\r\n"),
-        first=lambda axis: axis.home()),
-    "zaber.stage": Case(
-        DeviceEntry(driver="zaber.stage", emulator="zaber", address={"host": "", "port": "0", "device": 1},
-                    identity={"serial": "12345"}, limits={"position": (0, 50)},
-                    settings={"counts_per_unit": 20997.375, "emulated_speed": 1000.0}),
-        {"position": 0.0, "homed": True}, _asks(b"get pos"), _axis,
-        lambda draw: ("position", draw.uniform(0, 50)), grammar.zaber(20997.375), grammar.other_zaber,
-        (b"@01 0 00 RJ IDLE -- BADCOMMAND\r\n", b"@02 1 00 OK IDLE -- 5\r\n", b"\r\n", b"!01 1 IDLE --\r\n")),
-    "frames.camera": Case(
-        DeviceEntry(driver="frames.camera", emulator="frames", address={"host": "", "port": 0},
-                    identity={"serial": "7"}),
-        {"frame": np.zeros((2, 2), np.uint8)}, _asks(b"grab"), lambda one: one.grab(), _frame, grammar.frame,
-        others=(b"null\n", b"[]\n", b"{}\n", b"\n", b'{"id": 1e999}\n', b"{" * 5000 + b"\n")),
-}  # fmt: skip
 
 
 def edited(reply: bytes, draw: random.Random) -> bytes:
@@ -214,6 +96,8 @@ def edited(reply: bytes, draw: random.Random) -> bytes:
 def other(reply: bytes, case: Case, draw: random.Random) -> bytes:
     """Return something else than a valid reply."""
     kind = draw.randrange(4)
+    if kind > 1 and case.odd is not None:
+        return case.odd(reply, draw)
     if kind == 0 or not case.others:
         return bytes(draw.choice(NOISE) for _ in range(draw.randrange(1, 12))) + b"\n"
     if kind == 1:
@@ -224,9 +108,15 @@ def other(reply: bytes, case: Case, draw: random.Random) -> bytes:
 def same(found: Any, value: Any) -> bool:
     """Return whether a driver gave a value, to what rounding does."""
     if isinstance(value, np.ndarray):
-        return isinstance(found, np.ndarray) and found.dtype == value.dtype and np.array_equal(found, value)
-    if isinstance(value, bool) or isinstance(found, bool):
-        return found is value
+        return (
+            isinstance(found, np.ndarray)
+            and found.dtype == value.dtype
+            and np.array_equal(found, value, equal_nan=value.dtype.kind == "f")
+        )
+    if isinstance(value, tuple):
+        return isinstance(found, tuple) and len(found) == len(value) and all(map(same, found, value))
+    if isinstance(value, bool | str) or isinstance(found, bool | str):
+        return type(found) is type(value) and found == value
     return value is not None and isinstance(found, int | float) and abs(found - value) <= 1e-9 * max(1.0, abs(value))
 
 
@@ -244,7 +134,12 @@ async def asked(one: Any, case: Case) -> Any:
 @contextmanager
 def wire(case: Case) -> Iterator[tuple[DeviceEntry, Alone, Forger]]:
     """Yield the entry of an emulated device, what is behind it, and the forger on its wire."""
-    behind, forger = Alone(case.at_first), Forger(case.question)
+    forger = Forger(case.question)
+    if case.wire is not None:
+        with case.wire(case, forger) as (entry, own):
+            yield entry, own, forger
+        return
+    behind = Alone(case.at_first)
     served, line = serving.TcpServed.__init__, serving.SerialServed.__init__
 
     def of_tcp(self: Any, conversation: Any) -> None:
@@ -336,44 +231,19 @@ def shown(value: Any) -> str:
     return "unknown" if value is UNKNOWN else repr(value)[:100]
 
 
-def _loose_number(raw: str, unit: str, **_: Any) -> Any:
-    from pico.model.instruments.readout import Readout, unknown
-
-    try:
-        return Readout(unit=unit, value=float(raw), raw=raw)
-    except ValueError:
-        return unknown(unit, "garbled", raw)
-
-
-def planted(fault: str) -> None:
-    """Put a fault into the drivers."""
-    if fault == "float":  # takes what Python takes
-        judging.number = _loose_number  # type: ignore[assignment]
-    elif fault == "sentinel":  # over-range is a number
-        judging._LEAST_SENTINEL = 1e99
-    elif fault == "switch":  # whatever is not off is on
-        judging.switched = lambda raw: raw.strip() not in ("0", "OFF")
-    elif fault == "hex":  # takes as many digits as come
-        judging.hexadecimal = lambda raw, digits, **_: int(raw, 16)
-    elif fault == "picture":  # believes the header
-        from pico.drivers import frames
-
-        frames.zlib = type("zlib", (), {"crc32": staticmethod(lambda _: None)})  # type: ignore[assignment]
-
-
-PLANTS = {"float": "scpi.meter", "sentinel": "scpi.meter", "switch": "scpi.laser", "hex": "elliptec.rotator"}
-
-
 def main() -> int:
     """Run, print, and return the exit code."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--replies", type=int, default=500)
     parser.add_argument("--only", nargs="*", default=list(CASES))
-    parser.add_argument("--plant", choices=[*PLANTS, "picture"])
+    parser.add_argument("--plant", choices=list(PLANTS))
+    parser.add_argument("--plants", action="store_true", help="whether each planted fault is found")
     wanted = parser.parse_args()
+    if wanted.plants:
+        return _found(wanted)
     if wanted.plant:
-        planted(wanted.plant)
+        PLANTS[wanted.plant].put()
     print(f"seed {wanted.seed}, {wanted.replies} replies a driver")
     every = []
     for name in wanted.only:
@@ -383,6 +253,18 @@ def main() -> int:
     for one in every[:40]:
         print(one)
     return 1 if every else 0
+
+
+def _found(wanted: argparse.Namespace) -> int:
+    """Return 1 if a planted fault is not found in one of its drivers."""
+    missed = 0
+    for plant, name in ((plant, name) for plant, one in PLANTS.items() for name in one.drivers):
+        words = ["--seed", wanted.seed, "--replies", wanted.replies, "--plant", plant, "--only", name]
+        done = subprocess.run([sys.executable, __file__, *map(str, words)], capture_output=True, check=False)
+        found = done.returncode == 1 and b" wrong; " in done.stdout and b" 0 wrong; " not in done.stdout
+        missed += not found
+        print(f"{plant} in {name}: {'found' if found else 'NOT found'}", flush=True)
+    return 1 if missed else 0
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ from __future__ import annotations
 import socket
 from typing import TYPE_CHECKING, Any
 
+from pico.drivers import judging
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.limits import require_within
@@ -22,6 +23,8 @@ _GRAB = 4.9
 """How long a picture may take in all [s]."""
 _RENDERED = 4.0
 """How long an emulated one's picture may take to be drawn [s]."""
+_UNNUMBERED = (0, 2**64 - 1)
+"""What the library says for the number of a picture where the camera has none."""
 _EXPOSURE = 0.02
 """How far the exposure that is read back may be from what was set: cameras round it [of itself]."""
 
@@ -36,6 +39,7 @@ class _Link:
         wanted.SetSerialNumber(str(entry.address["serial"]))
         self.camera = camera = pylon.InstantCamera(pylon.TlFactory.GetInstance().CreateFirstDevice(wanted))
         camera.Open()
+        self.numbers = judging.Counted()
         self._asked: socket.socket | None = None
         if images := entry.address.get("images"):  # before it grabs: then these are locked
             self._asked = socket.create_connection(("127.0.0.1", int(entry.address["asks"])), _RENDERED)
@@ -85,7 +89,7 @@ class Camera:
 
         def take(link: _Link) -> np.ndarray:
             self._set(link.camera, exposure, gain)
-            return _taken(link, REPLY + round(longest * 1000))
+            return _taken(self.name, link, REPLY + round(longest * 1000))
 
         return await self._line.ask("take a picture", take, within=_GRAB)
 
@@ -105,8 +109,9 @@ class Camera:
         await self._line.close()
 
 
-def _taken(link: _Link, within: int) -> np.ndarray:
-    """Return the picture of one trigger; what came before it is thrown away. Raises what pypylon raises."""
+def _taken(name: str, link: _Link, within: int) -> np.ndarray:
+    """Return the picture of one trigger; what came before it is thrown away. Raises what pypylon raises, and PicoError
+    for what is no picture of its size, and for one that was sent before."""
     from pypylon import pylon
 
     camera = link.camera
@@ -118,7 +123,9 @@ def _taken(link: _Link, within: int) -> np.ndarray:
     try:
         if not result.GrabSucceeded():
             raise OSError(f"the picture failed: {result.GetErrorDescription()}")
-        taken: np.ndarray = result.Array.copy()
+        taken = judging.pixels(name, result.Array, int(camera.Width.Value), int(camera.Height.Value))
+        if link.numbers.last >= 0 or result.BlockID not in _UNNUMBERED:
+            link.numbers.require_newer(name, result.BlockID)
         return taken
     finally:
         result.Release()

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from pico.base.reasons import REASONS, ReasonCode
@@ -163,6 +164,52 @@ def picture(said: Mapping[str, Any], data: bytes) -> np.ndarray:
     if len(data) != wanted:
         raise _no_picture(f"it came with {len(data)} bytes, and {sizes} pixels of {kind} are {wanted}")
     return np.frombuffer(data, kind).reshape(sizes)
+
+
+def pixels(name: str, taken: object, columns: int | None = None, rows: int | None = None) -> np.ndarray:
+    """Return a copy of a picture that a vendor's library gave. Raises PicoError, for camera `name`, for pixels of
+    another type than uint8 or uint16, and for a size that is not `columns` by `rows`."""
+    import numpy as np
+
+    found = np.asarray(taken)
+    kind, shape = str(found.dtype), list(found.shape)
+    if kind not in _PIXELS:
+        raise _of(name, _no_pixels(f"its pixels are of type {kind}, not {' or '.join(_PIXELS)}"))
+    if len(shape) not in (2, 3) or 0 in shape or shape[2:] not in ([], [3]):
+        raise _of(name, _no_pixels(f"its shape is {shape}, not [rows, columns] or [rows, columns, 3]"))
+    if columns is not None and rows is not None and shape[:2] != [rows, columns]:
+        raise _of(name, _no_pixels(f"it has {shape[1]} x {shape[0]} pixels, and the camera sends {columns} x {rows}"))
+    return found.copy()
+
+
+class Counted:
+    """The numbers of the pictures of a stream, as a vendor's library gives them. They begin anew once they have come to
+    the end of their range."""
+
+    ANEW = 1000
+    """A number that is smaller by more than this belongs to a count that began anew."""
+
+    def __init__(self) -> None:
+        self.last = -1
+
+    def require_newer(self, name: str, number: object) -> None:
+        """Raise PicoError, for camera `name`, for the picture that was sent last or one shortly before, and for a
+        number that is none. The next is compared with this one: a wrong number does not spoil all that follow.
+        """
+        last = self.last
+        if type(number) is int and number >= 0:
+            self.last = number
+            if number < last - self.ANEW:
+                return
+        counted(name, number if number is not None else -1, last)
+
+
+def _of(name: str, wrong: PicoError) -> PicoError:
+    return PicoError([replace(one, address=name) for one in wrong.diagnostics])
+
+
+def _no_pixels(why: str) -> PicoError:
+    return PicoError(error("device-reply", f"what the camera sent is no picture: {why}", hint="check its pixel format"))
 
 
 def counted(name: str, number: object, last: int) -> int:

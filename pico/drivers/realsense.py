@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
+from pico.drivers import judging
 from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.limits import require_within
@@ -24,6 +25,8 @@ SIZE, RATE = (1280, 720), 30
 """Columns and rows of a picture, and pictures a second, where the lab says nothing."""
 _GRAB = 4.9
 """How long a picture may take in all [s]."""
+_UNIT = (1e-6, 1e-2)
+"""What a count of depth can be [m]."""
 _EXPOSURE = 0.02
 """How far the exposure that is read back may be from what was set [of itself]."""
 
@@ -44,17 +47,22 @@ class _Link:
             raise ConnectionError(f"no camera with the serial number {serial} is there")  # it would wait for one
         said: dict[str, Any] = {"width": SIZE[0], "height": SIZE[1], "rate": RATE, **entry.settings, **entry.address}
         width, height, rate = (int(said[key]) for key in ("width", "height", "rate"))
+        self.size = width, height
+        self.numbers = {stream: judging.Counted() for stream in ("infrared", "depth")}
         wanted.enable_device(serial)
         wanted.enable_stream(rs.stream.depth, 0, width, height, rs.format.z16, rate)
         wanted.enable_stream(rs.stream.infrared, 1, width, height, rs.format.y8, rate)
         self.device = self._pipeline.start(wanted).get_device()
 
-    def taken(self) -> Any:
-        """Return the next frames but one: those of the first began before it was asked for."""
+    def taken(self, name: str, stream: str) -> tuple[np.ndarray, Any]:
+        """Return the pixels of the next frame but one of a stream (`infrared`, `depth`), and the frame: the first began
+        before it was asked for. Raises PicoError for what is none of its size, and for one that was sent before."""
         for _ in range(2):
             self._asked()
             found = self._pipeline.wait_for_frames(REPLY)
-        return found
+            frame = found.get_depth_frame() if stream == "depth" else found.get_infrared_frame(1)
+            self.numbers[stream].require_newer(name, frame.get_frame_number())
+        return judging.pixels(name, frame.get_data(), *self.size), frame
 
     def told(self, what: str) -> str:
         """Return what the camera says of itself, '' where it says nothing of that."""
@@ -97,11 +105,12 @@ class DepthCamera:
                 require_within(self.name, what, value, limits, unit)
 
         def take(link: _Link) -> np.ndarray:
-            import numpy as np
-
             for what, value, _, scale in asked:
                 link.set(self.name, what, value, scale)
-            return np.array(link.taken().get_infrared_frame(1).get_data())
+            found, _ = link.taken(self.name, "infrared")
+            if str(found.dtype) != "uint8":
+                raise _no_frame(self.name, f"its pixels are of type {found.dtype}, not uint8")
+            return found
 
         return await self._line.ask("take a picture", take, within=_GRAB)
 
@@ -111,9 +120,14 @@ class DepthCamera:
         def take(link: _Link) -> np.ndarray:
             import numpy as np
 
-            frame = link.taken().get_depth_frame()
-            counts = np.array(frame.get_data(), dtype=float)
-            return np.where(counts > 0, counts * frame.get_units() * 1000, np.nan)
+            found, frame = link.taken(self.name, "depth")
+            unit = frame.get_units()
+            if str(found.dtype) != "uint16":
+                raise _no_frame(self.name, f"its counts are of type {found.dtype}, not uint16")
+            if not isinstance(unit, int | float) or not _UNIT[0] <= unit <= _UNIT[1]:
+                raise _no_frame(self.name, f"a count of its depth is {unit} m")
+            counts = found.astype(float)
+            return np.where(counts > 0, counts * unit * 1000, np.nan)
 
         return await self._line.ask("measure depth", take, within=_GRAB)
 
@@ -122,6 +136,10 @@ class DepthCamera:
 
     async def close(self) -> None:
         await self._line.close()
+
+
+def _no_frame(name: str, why: str) -> PicoError:
+    return PicoError(error("device-reply", f"what {name} sent is no picture of it: {why}", address=name))
 
 
 def _identity(link: _Link) -> Identity:

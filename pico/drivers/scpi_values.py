@@ -123,7 +123,7 @@ class Numbers(Spoken):
     def _number(self, visa: Visa, name: str) -> Readout:
         unit, raw = self._units[name], visa.ask(str(self._read[name]))
         try:
-            failure = visa.failure() if self._queue else ""
+            failure = visa.failure(after_reply=True) if self._queue else ""
         except ValueError as exc:
             return unknown(unit, "garbled", raw, f"its error queue can't be read: {exc}")
         found = judging.number(raw, unit, limits=self._entry.limits.get(name), failure=failure)
@@ -187,7 +187,7 @@ class Positions(Spoken):
     def _position(self, visa: Visa) -> Readout:
         raw = visa.ask(str(self._entry.settings["read"]))
         try:
-            failure = visa.failure() if self._queue else ""
+            failure = visa.failure(after_reply=True) if self._queue else ""
         except ValueError as exc:
             return unknown("", "garbled", raw, f"its error queue can't be read: {exc}")
         if failure:

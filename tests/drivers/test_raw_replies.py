@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
@@ -104,6 +106,38 @@ def test_what_is_no_picture_is_told_in_words(said: dict[str, object]) -> None:
         judging.picture(said, bytes(4))
     assert told.value.diagnostics[0].code == "device-reply"
     assert "no picture" in told.value.diagnostics[0].summary
+
+
+@pytest.mark.parametrize(
+    ("taken", "why"),
+    [
+        (np.zeros((4, 6), np.float64), "its pixels are of type float64, not uint8 or uint16"),
+        (np.zeros((6, 4), np.uint8), "it has 4 x 6 pixels, and the camera sends 6 x 4"),
+        (np.zeros(24, np.uint8), "its shape is [24]"),
+        (np.zeros((0, 0), np.uint8), "its shape is [0, 0]"),
+        (np.zeros((4, 6, 4), np.uint8), "its shape is [4, 6, 4]"),
+    ],
+)
+def test_what_a_library_gives_that_is_no_picture_of_the_camera_is_told(taken: np.ndarray, why: str) -> None:
+    with pytest.raises(PicoError, match=re.escape(why)) as wrong:
+        judging.pixels("cam", taken, 6, 4)
+    assert wrong.value.diagnostics[0].address == "cam"
+    good = np.arange(24, dtype=np.uint16).reshape(4, 6)
+    assert np.array_equal(judging.pixels("cam", good, 6, 4), good)
+
+
+def test_a_picture_that_was_sent_before_is_stale_and_a_count_may_begin_anew() -> None:
+    numbers = judging.Counted()
+    for number in (3, 4, 65535, 1, 2):
+        numbers.require_newer("cam", number)
+    for stale in (2, 1):
+        with pytest.raises(PicoError) as wrong:
+            numbers.require_newer("cam", stale)
+        assert wrong.value.diagnostics[0].code == "stale"
+    numbers.require_newer("cam", 2)  # one wrong number does not spoil those after it
+    for none in (-1, 2.5, None, "3", True):
+        with pytest.raises(PicoError):
+            numbers.require_newer("cam", none)
 
 
 def test_pictures_are_gray_or_in_color() -> None:

@@ -22,6 +22,7 @@ from types import ModuleType, SimpleNamespace
 from typing import Any
 
 from pico.diagnostics import PicoError, error
+from pico.drivers.xarm.replies import judged
 
 CONTROL_PORT = 502
 ANSWER = 0.7
@@ -140,6 +141,7 @@ def connected(host: str, port: int) -> Any:
         dropped(made)
         raise ConnectionError(f"no control box answers at {host}:{port}")
     made.set_timeout(ANSWER)
+    judged(made.core)
     return made
 
 
