@@ -85,11 +85,11 @@ class Session:
         """Return the flags with which another command reaches the same bench, each as it is typed."""
         return flags_of(self.said)
 
-    def place(self, root: Path) -> Place:
+    def place(self, root: Path, *, safety: bool = False) -> Place:
         """Return the bench that is meant for the lab in `root`, see `pico.edge.network.meant`. Raises PicoError."""
         from pico.edge.network.meant import meant
 
-        return meant(root, backend=self.backend, word=self.at)
+        return meant(root, backend=self.backend, word=self.at, safety=safety)
 
     def root(self, *, safety: bool = False) -> Path:
         """Return the folder of the lab; with `safety` also if its manifest is gone. Raises PicoError."""
@@ -97,11 +97,11 @@ class Session:
 
         return (find_lab_of_bench if safety else find_lab)(self.folder)
 
-    def here(self, root: Path) -> BenchPlace:
+    def here(self, root: Path, *, safety: bool = False) -> BenchPlace:
         """Return the bench that is meant, which is to be one of this machine; raises PicoError for another."""
         from pico.places.bench import BenchPlace
 
-        place = self.place(root)
+        place = self.place(root, safety=safety)
         if isinstance(place, BenchPlace):
             return place
         if place.local:  # `pico gui` serves it
@@ -123,7 +123,7 @@ class Session:
 
         if self.backend is not None:
             opener(self.backend)
-        place = self.place(self.root(safety=bool(safety)))
+        place = self.place(self.root(safety=bool(safety)), safety=bool(safety))
         bench = Bench.open(
             self.folder, backend=self.backend, fidelity=fidelity, speed=speed, bench=place, safety=safety
         )

@@ -122,9 +122,11 @@ def lock(
       pico lease lock --reason "mirrors are being cleaned"
     """
     from pico.edge.guard.table_lock import lock
+    from pico.places.record import lenient
 
     session = Session.of(context)
-    place, person = _here(session)
+    context.with_resource(lenient())
+    place, person = _here(session, safety=True)
     session.say(f"{lock(place, person, reason).said}. `pico lease unlock` takes the lock off.")
 
 
@@ -146,13 +148,12 @@ def unlock(context: typer.Context) -> None:
     session.say("The bench was not locked." if found is None else f"The bench is unlocked ({found.by}).")
 
 
-def _here(session: Session) -> tuple[BenchPlace, str]:
+def _here(session: Session, *, safety: bool = False) -> tuple[BenchPlace, str]:
     """Return the bench of this machine that a person stands at, and the name of that person."""
     from pico.history.git.command import answer
-    from pico.manifest.load import find_lab
 
     try:
-        place = session.here(find_lab(session.folder))
+        place = session.here(session.root(safety=safety), safety=safety)
     except PicoError as exc:
         hint = "only a person at the table locks a bench, or unlocks it"
         raise PicoError(error("table-lock", exc.diagnostics[0].summary, hint=hint), ExitCode.DENIED) from exc

@@ -31,9 +31,11 @@ def stop(context: typer.Context, now: Now = False) -> int:
       pico stop --bench shel/bench1
     """
     from pico.bench.running.stopping import end_light, moved_elsewhere, stop
+    from pico.places.record import lenient
 
     session = Session.of(context)
-    place = session.place(session.root(safety=True))
+    context.with_resource(lenient())
+    place = session.place(session.root(safety=True), safety=True)
     ended, wrong = None, list[Diagnostic]()
     for work in ("light", "motion", "light") if now else ("motion",):  # a run may let light out until it has stopped
         if work == "motion":

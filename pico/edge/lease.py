@@ -50,6 +50,8 @@ class BenchLock:
         self._file: int | None = None
         self.server = False
         """Whether this process takes it for others, whom it serves."""
+        self.safety = False
+        """Whether the bench is taken only to make it safer: that needs nobody's grant."""
         self.granting: Granting | None = None
         """Who grants the bench in place of this lock, where it is enrolled with a coordinator."""
 
@@ -84,7 +86,7 @@ class BenchLock:
         """Return the token that the coordinator of the bench gave; 0 where it has none."""
         if self.granting is not None:
             return self.granting.token()
-        if os.path.lexists(ENROLMENT.path(self._folder)):
+        if not self.safety and os.path.lexists(ENROLMENT.path(self._folder)):
             raise PicoError(enrolled(self._folder), ExitCode.LOCKED)
         return 0
 

@@ -14,8 +14,10 @@ from copy import deepcopy
 from pathlib import Path
 
 from pico.base.state_files import RECORD, RECORD_LOCK
+from pico.diagnostics import PicoError
 from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
 
+_lenient: list[None] = []
 SHARED = ""
 """The name below which a record that an earlier PICO wrote stands: all benches of a lab were in one folder then."""
 Record = dict[str, dict[str, str]]
@@ -61,10 +63,30 @@ def note(place: LabPlace, record: Record, name: str) -> None:
 
 
 @contextmanager
+def lenient() -> Iterator[None]:
+    """Take a record that can't be read for an empty one meanwhile, which is never written: for commands that only make
+    a bench safer. The worktree where they are called then counts as that of the bench, or the main one if it used it.
+    """
+    _lenient.append(None)
+    try:
+        yield
+    finally:
+        _lenient.pop()
+
+
+@contextmanager
 def recording(place: LabPlace) -> Iterator[Record]:
     """Read the record, and write it if it was changed; no other process does so meanwhile. Raises PicoError."""
     path = place.record
-    lock = RECORD_LOCK.lock(path.with_suffix(".lock"))
+    try:
+        lock = RECORD_LOCK.lock(path.with_suffix(".lock"))
+        if _lenient:
+            _read(place)
+    except PicoError:
+        if not _lenient:
+            raise
+        yield deepcopy(read_record(place))
+        return
     try:
         fcntl.flock(lock, fcntl.LOCK_EX)
         record = read_record(place)
@@ -78,6 +100,15 @@ def recording(place: LabPlace) -> Iterator[Record]:
 
 def read_record(place: LabPlace) -> Record:
     """Return the record, one of an earlier PICO lifted. Raises PicoError for one that can't be read."""
+    try:
+        return _read(place)
+    except PicoError:
+        if not _lenient:
+            raise
+        return {}
+
+
+def _read(place: LabPlace) -> Record:
     return RECORD.read(place.record, _record) or {}
 
 

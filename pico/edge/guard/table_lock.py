@@ -36,9 +36,12 @@ def read(place: BenchPlace) -> TableLock | None:
 
 
 def lock(place: BenchPlace, by: str, reason: str) -> TableLock:
-    """Lock a bench for the person `by`, durably; a lock that is there stays. Raises PicoError (exit code LOCKED) if
-    another person has it."""
-    found = read(place)
+    """Lock a bench for the person `by`, durably; a lock that is there stays, but one that can't be read. Raises
+    PicoError (exit code LOCKED) if another person has it."""
+    try:
+        found = read(place)
+    except PicoError:  # what can't be read locks the bench for nobody in particular: it is replaced
+        found = None
     if found is not None and found.by != by:
         raise PicoError(_of_another(found), ExitCode.LOCKED)
     made = TableLock(

@@ -29,6 +29,8 @@ FAREWELL = 2.0
 """Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
 MINDS = 1.0
 """Seconds between two looks at whether an arming is over."""
+SAFER = frozenset({"disarm"})
+"""Calls that only make the bench safer: whoever grants the bench, they are answered here, too."""
 READING = frozenset({"events", "report", "film", "describe", "holder", "observe", "unended", "lab", "array"})
 """Calls that are answered until then."""
 
@@ -118,7 +120,7 @@ class Server:
             name, arguments = wire.read_call(data)
             if self._ending and name not in READING and not name.startswith("memory"):
                 raise PicoError(error("link", "the edge is about to end", hint="start it again, then call this again"))
-            if name in wire.TAKES | wire.HOLDS and self._edge.enrolled:
+            if name in (wire.TAKES | wire.HOLDS) - SAFER and self._edge.enrolled:
                 raise PicoError(enrolled(self._edge.place.folder), ExitCode.LOCKED)
         except PicoError as exc:
             yield wire.failure(exc)

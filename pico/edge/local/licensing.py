@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import time
 from collections.abc import Callable
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from pico.edge.local.sight import Sight
 from pico.model.observation import Observation
 from pico.model.record import as_json
 from pico.places.attachment import require_attached
+from pico.places.bench import BenchPlace
 
 if TYPE_CHECKING:
     from pico.edge.armings import Kept
@@ -28,6 +30,15 @@ SHUT_WITHIN = 150
 """So often is looked whether who has the bench has shut a laser that was disarmed."""
 AGAIN = 0.02
 """Seconds of wall time between two such looks."""
+
+
+def _require_not_elsewhere(place: BenchPlace) -> None:
+    """Raise PicoError if another worktree has the bench; a record that can't be read keeps no light on."""
+    try:
+        require_attached(place)
+    except PicoError as exc:
+        if exc.exit_code == ExitCode.LOCKED:
+            raise
 
 
 class Licensing:
@@ -69,7 +80,7 @@ class Licensing:
         from pico.policy.arming import ended
 
         own, edge = self._apparatus, self._edge
-        require_attached(own.place)
+        _require_not_elsewhere(own.place)
         now, known = own.now(), {one.laser: one.arming for one in await self.armings()}
         keep(own.place, ended(own.setup, known.get(laser), laser, by, (await own.device.describe()).name, now))
         refused: PicoError | None = None
@@ -78,9 +89,11 @@ class Licensing:
                 try:
                     await edge.release(await edge.acquire(DISARMING))
                 except PicoError as exc:
-                    if exc.exit_code != ExitCode.LOCKED:  # nobody else shuts it: a journal that can't be used, say
+                    code = exc.diagnostics[0].code
+                    if exc.exit_code != ExitCode.LOCKED or code == "enrolled":
+                        # nobody else shuts it: a journal that can't be used, say, or a coordinator that is far away
                         return await self._shut_unrecorded(laser)
-                    if exc.diagnostics[0].code != "locked":
+                    if code != "locked":
                         refused = exc
             if laser not in {one.laser for one in await self.armings()}:
                 return True
@@ -91,15 +104,24 @@ class Licensing:
 
     async def _shut_unrecorded(self, laser: str) -> bool:
         """Shut a laser though the bench cannot be taken as usual: light never stays on for a journal that is damaged, a
-        Lab that is, or a question that is open. Nothing records it. Returns whether it is shut; raises PicoError."""
+        Lab or a lock that is, or a question that is open. Nothing records it. Returns whether it is shut; raises
+        PicoError."""
         from pico.edge.armings import forget
         from pico.edge.emission import shutting
         from pico.edge.lease import BenchLock
         from pico.edge.running import new_run_id
 
         own = self._apparatus
-        with BenchLock(own.place, own.now).held(DISARMING) as lease:
-            await own.device.take(lease.token, lambda _: None, lambda: None)
+        lock = BenchLock(own.place, own.now)
+        lock.safety = True
+        try:
+            token = lock.acquire(DISARMING).token
+        except PicoError as exc:
+            if exc.exit_code == ExitCode.LOCKED:
+                raise
+            token = int(time.time())  # what is in the place of the lock keeps nobody out: closing needs no lock
+        try:
+            await own.device.take(token, lambda _: None, lambda: None)
             try:
                 operation = shutting(own.setup, await self._sight.observe(), laser, "it is disarmed")
                 if operation is not None:
@@ -108,6 +130,8 @@ class Licensing:
                         return False
             finally:
                 await own.device.leave()
+        finally:
+            lock.release()
         forget(own.place, laser)
         return True
 

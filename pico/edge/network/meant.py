@@ -21,12 +21,19 @@ LOCAL = "local"
 
 
 def meant(
-    root: Path, *, backend: str | None = None, word: str | None = None, environment: Mapping[str, str] | None = None
+    root: Path, *, backend: str | None = None, word: str | None = None, environment: Mapping[str, str] | None = None,
+    safety: bool = False,
 ) -> Place:  # fmt: skip
     """Return the bench that is meant for the lab in `root`: by the name of its device (`backend`), or by a `word` (a
     device, LAB/BENCH of a remote, `pico://host/LAB/BENCH`); without both by the environment (that of this process for
-    None), then by what this worktree chose. Raises PicoError for a word that names no bench."""
-    remotes = known(root)  # also puts back what a killed `pico gui` left
+    None), then by what this worktree chose. `safety`: coordinators that can't be read are none, for what only makes a
+    bench of this machine safer. Raises PicoError for a word that names no bench."""
+    try:
+        remotes = known(root)  # also puts back what a killed `pico gui` left
+    except PicoError:
+        if not safety:
+            raise
+        remotes = Remotes()
     if backend and word:
         found = named_bench(root, remotes, word)
         if isinstance(found, BenchPlace) and found.name != backend:
