@@ -12,7 +12,7 @@ from pico.model.state import is_reference, reference_from_json
 from .by_light import excepted
 from .diff import lines
 from .style import ago, count, listed, paint, wrap
-from .unread import in_known, unread
+from .unread import in_known, in_no_state, unread
 
 
 def text(found: Drifted, bench: str) -> str:
@@ -29,7 +29,8 @@ def text(found: Drifted, bench: str) -> str:
             if light
             else f"No drift: the bench `{bench}` is as {head} says{in_known(found.unread)}{excepted(kept)}."
         )
-        return "\n".join(x for x in (title, *light, within, ignored, unread(found.unread)) if x)
+        also = unread(found.unread), in_no_state(found.unstated)
+        return "\n".join(x for x in (title, *light, within, ignored, *also) if x)
     title = (
         f"{count(len(beyond), 'tunable')} of the bench `{bench}` {'has' if len(beyond) == 1 else 'have'} left {head}:"
     )
@@ -39,6 +40,7 @@ def text(found: Drifted, bench: str) -> str:
         *([within] if within else []),
         *([ignored] if ignored else []),
         *([unread(found.unread)] if found.unread else []),
+        *([in_no_state(found.unstated)] if found.unstated else []),
         _hint(found),
     ]
     entries = [line for one in _ordered(beyond) for line in _entry(one)]
@@ -113,7 +115,8 @@ def about(one: Drift) -> str:
 def data(found: Drifted, bench: str) -> dict[str, Any]:
     """Return schema `pico.drift/v1`: `bench`, `head`, `changes` (from committed, `before`, to live, `after`;
     `tolerance`, `age`, `uncertainty`, `by`, `how`), `ignored`, `held`, `cut_short`, `light`: goals whose light is lost,
-    or may be, with what `moved`; `unread`: values that no device of the bench reads."""
+    or may be, with what `moved`; `unread`: values that no device of the bench reads; `unstated`: settings that HEAD
+    does not name."""
     changes = [entry(d) for d in (*found.beyond, *found.within)]
     own = {
         "bench": bench,
@@ -123,6 +126,7 @@ def data(found: Drifted, bench: str) -> dict[str, Any]:
         "held": found.held,
     }
     own |= {"cut_short": as_json(found.cut_short), "light": as_json(found.light or ()), "unread": list(found.unread)}
+    own |= {"unstated": as_json(found.unstated)}
     return {"schema": "pico.drift/v1", **own, "changes": changes}
 
 

@@ -15,7 +15,7 @@ from .measured import value
 from .report import expectations
 from .runs import shown
 from .style import columns, count, on_bench, paint, wrap
-from .unread import in_known, unread
+from .unread import in_known, in_no_state, unread
 
 if TYPE_CHECKING:
     from pico.diagnosis.grouping import Suspect
@@ -34,6 +34,7 @@ def text(found: Verified, *, suspects: Sequence[Suspect] = ()) -> str:
         near = f", {count(within, 'tunable')} within tolerance" if within else ""
         said = [f"The bench equals {found.goal}{in_known(found.unread or ())}{near}{excepted(found.changes)}."]
     said += [unread(found.unread)] if found.unread else []
+    said += [in_no_state(found.unstated)] if found.unstated else []
     said += goals(found.goals or ())
     if found.light:
         commit = found.standing.commit[:7] if found.standing else ""

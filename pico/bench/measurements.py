@@ -170,6 +170,7 @@ class Measurements:
         from pico.model.trace.expectation import Verified
         from pico.policy.expectations import check_expectations
         from pico.runs.evidence import stands
+        from pico.runs.unstated_settings import tell
 
         folder, setup = self.opened.folder, self.opened.setup
         wanted = folder.state_at(revision) if revision else folder.state
@@ -193,6 +194,7 @@ class Measurements:
             goals=(*(report.read or () if report else ()), *told) if report or told else None,
             light=Lights(self.opened).compared(revision, report.measurements) if report else None,
             unread=unread_values(seen, wanted) or None,
+            unstated=tell(setup, self.opened.edge.memory, seen, wanted) or None,
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

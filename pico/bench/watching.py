@@ -23,7 +23,7 @@ from pico.model.lab import HealLimit
 from pico.model.observation import LACKING, Observation
 from pico.model.record import record
 from pico.model.trace.report import RunReport
-from pico.runs.unstated_settings import looked_up
+from pico.runs.unstated_settings import looked_up, tell
 
 if TYPE_CHECKING:
     from pico.model.comparing.status import Status
@@ -85,7 +85,7 @@ class Watch:
             within=tuple(d for d in found if d.change.tolerated),
             ignored=tuple(f"{c.component}.{c.tunable}" for c in ignored), held=self._held(seen, beyond),
             cut_short=told_first(self.opened, seen), light=tuple(self._light_lost(seen, head, beyond)) or None,
-            unread=unread_values(seen, head),
+            unread=unread_values(seen, head), unstated=tell(setup, self.opened.edge.memory, seen, head),
         )  # fmt: skip
 
     def _with_own(self, seen: Observation, state: LabState) -> Observation:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from pico.base import clock
 from pico.diagnostics import PicoError
 from pico.model.catalog import Tunable
+from pico.model.comparing.unstated import Unstated
 from pico.model.diff import show_value, value_deviation
 from pico.model.observation import Observation
 from pico.model.operation import Operation, touched_by
@@ -60,6 +61,14 @@ def looked_up(
         return unstated_settings(setup, memory, seen, *states)
     except PicoError:
         return {}
+
+
+def tell(
+    setup: Setup, memory: Memory | None, seen: Observation, *states: LabState | None
+) -> tuple[Unstated, ...]:  # fmt: skip
+    """Return `looked_up` with units, for what compares the bench with a state."""
+    found = looked_up(setup, memory, seen, *states)
+    return tuple(Unstated(address=a, value=value, unit=_kind(setup, a).unit) for a, value in found.items())
 
 
 def in_words(setup: Setup, settings: Mapping[str, Value]) -> str:

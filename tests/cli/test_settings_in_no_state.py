@@ -35,11 +35,17 @@ def test_a_setting_that_no_state_names_is_listed_captured_and_named_on_the_way_b
     assert "`pico capture camera.exposure`" in status.out
     row = next(r for r in pico("status", "--json").data["rows"] if r["tunable"] == "exposure")
     assert (row["live"], row["unstated"]) == (7, True)
+    said = "Set on the bench, but in no state: camera.exposure 7 ms; `pico capture camera.exposure` writes it"
+    for words in (("drift",), ("verify",), ("verify", "HEAD")):
+        shown, written = pico(*words), pico(*words, "--json")
+        assert said in " ".join(shown.out.split()), (words, shown)
+        assert written.data["unstated"] == [{"address": "camera.exposure", "value": 7, "unit": "ms"}], written.data
     assert "exposure: 7" in pico("capture", "--dry-run").out
     made = pico("commit", "-m", "two")
     assert made.code == 0 and "camera.exposure" in made.out, made
     assert "exposure: 7" in (bare / "state/table.yaml").read_text()
     assert "set, but" not in pico("status").out
+    assert all("in no state" not in pico(word).out for word in ("drift", "verify"))
 
     back = pico("checkout", "HEAD~1", "-y")
     assert back.code == 0 and "camera.exposure 7 ms stays as set" in back.out + back.err, back

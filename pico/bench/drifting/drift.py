@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from pico.backends.pushed import PUSHED
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
+from pico.model.comparing.unstated import Unstated
 from pico.model.diff import Change, addresses_of, value_distance
 from pico.model.observation import Observation, ObservedComponent, Uncertainty, slot_at
 from pico.model.operation import touched_by
@@ -71,7 +72,7 @@ class LightLost:
 class Drifted:
     """What has left HEAD beyond tolerance (`beyond`) and within, and what the lab's policy ignores, by address; goals
     whose light is lost with that, or without (`light`), as far as the journal knows. `unread`: values of HEAD, by
-    address, that no device of the bench reads.
+    address, that no device of the bench reads. `unstated`: what was set here and HEAD does not name.
 
     `held`: why nothing may be healed now; empty where that is allowed. `cut_short`: see `told_first`.
     """
@@ -85,6 +86,7 @@ class Drifted:
     cut_short: tuple[Diagnostic, ...] = ()
     light: tuple[LightLost, ...] | None = None
     unread: tuple[str, ...] = ()
+    unstated: tuple[Unstated, ...] = ()
 
     def __repr__(self) -> str:
         lost = f"; light lost: {', '.join(one.goal for one in self.light)}" if self.light else ""

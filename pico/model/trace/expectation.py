@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any, Literal
 
 from pico.diagnostics import Diagnostic, ExitCode
+from pico.model.comparing.unstated import Unstated
 from pico.model.diff import Change, addresses_of
 from pico.model.measurement import Compared
 from pico.model.record import record
@@ -115,7 +116,8 @@ class Verified:
     and the expectations of the state. `standing`: of the commit that the goal is, or of HEAD for the manifest; None
     without one. `left`: the bench does not stand as that commit says, whatever the manifest does. `goals` as they were
     measured, `light`: what the commit recorded of it against what was measured; None where neither was. `unread`:
-    values of the state, by address, that no device of the bench reads."""
+    values of the state, by address, that no device of the bench reads. `unstated`: what was set here and the state does
+    not name; None for nothing."""
 
     schema: str = "pico.verified/v1"
     goal: str
@@ -127,6 +129,7 @@ class Verified:
     goals: tuple[GoalRead, ...] | None = None
     light: tuple[Compared, ...] | None = None
     unread: tuple[str, ...] | None = None
+    unstated: tuple[Unstated, ...] | None = None
 
     def __repr__(self) -> str:
         off = f"{addresses_of(self.off)} differ" if self.off else "the bench equals it"
