@@ -392,6 +392,10 @@ def test_a_broken_driver_stops_no_other_device_of_a_bench(
     if mistake == "import":  # of what fails only when it is called the files know nothing
         checked = pico("validate")
         assert checked.code == 0 and "warning[plugin]" in checked.err and "devices.yaml:7:13" in checked.err, checked
+    for words in (("devices",), ("--emulate", "devices", "read", "laser_box", "shutter_box")):
+        shown = pico(*words)
+        assert "shutter_box" in shown.out and "internal" not in shown.err, shown
+    assert mistake != "import" or "broken" in pico("devices").out
     status = pico("--emulate", "status")
     assert status.code == 0 and named in status.err and "error" not in status.err, status
     assert pico("--emulate", "recover").code == 0
@@ -409,6 +413,8 @@ def test_a_driver_of_a_kind_that_there_is_not_is_named_with_those_that_there_are
     checked = pico("validate")
     assert checked.code == 0 and "warning[kind]" in checked.err and "devices.yaml:7:13" in checked.err, checked
     assert "there is no kind of instrument `lasser`" in checked.err and "did you mean `laser`?" in checked.err
+    listed = pico("devices")
+    assert listed.code == 0 and "broken" in listed.out, listed
     asked = pico("devices", "check")
     assert asked.code == 1 and "error[plugin]" in asked.err and "lasser" in asked.err, asked
     assert "KeyError" not in asked.err and "internal" not in asked.err

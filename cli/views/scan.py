@@ -33,7 +33,7 @@ def text(setup: Setup, look: Look) -> str:
 
 def _row(setup: Setup, name: str, part: ObservedComponent) -> list[str]:
     if part.pose is None:
-        return [name, "", "", "", "", "", paint("red", "not seen" if part.presence == "missing" else part.presence)]
+        return [name, "", "", "", "", "", paint("red", _unseen(part))]
     slot = slot_at(setup, part.pose) if part.presence == "seen" else part.presence
     sigma, how = part.uncertainty, _HOW.get(part.how, part.how)
     known = f"{sigma.position:.2f} mm {sigma.yaw:.2f}°" if sigma.position or sigma.yaw else ""
@@ -41,6 +41,13 @@ def _row(setup: Setup, name: str, part: ObservedComponent) -> list[str]:
     late = f", {number(part.age, 0)} s old" if part.age else ""
     cells = [name, f"{part.pose.x:.2f}", f"{part.pose.y:.2f}", f"{part.pose.yaw:.2f}°"]
     return [*cells, known, how + late, slot or ""]
+
+
+def _unseen(part: ObservedComponent) -> str:
+    """Return why a component has no pose, in a word."""
+    if part.is_unlooked:
+        return "unknown"
+    return "not seen" if part.presence == "missing" else part.presence
 
 
 def _cameras(look: Look) -> str:

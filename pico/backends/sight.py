@@ -16,7 +16,7 @@ from pico.backends.occlusion import Occluders
 from pico.backends.unidentified import swapped, with_unidentified
 from pico.diagnostics import Diagnostic, ExitCode, PicoError, error, warning
 from pico.model.catalog import Footprint
-from pico.model.observation import Observation, ObservedComponent, ObservedRobot, UnknownObject
+from pico.model.observation import NO_VIEW, UNLOOKED, Observation, ObservedComponent, ObservedRobot, UnknownObject
 from pico.model.observation import Uncertainty as Sigma
 from pico.model.pose import Pose
 from pico.model.setup import Setup
@@ -37,6 +37,8 @@ BLIND = frozenset({"calibration-drift", "marker-dark", "no-camera"})
 """What makes every position worthless: nothing is captured, planned or moved."""
 _FAR = 5.0  # standard deviations that a camera may be off where the lab says it is, before it counts as moved
 _ROOM = 5.0  # mm that an object may reach beyond its marker
+_OF_A_LOOK = ("marker-hidden", "marker-none")
+_NAMED = 4
 _LARGE = 45.0  # mm, radius of an object of which nothing is known, where the lab's own parts are smaller
 
 
@@ -236,6 +238,20 @@ def _strangers(
             name = base if number == 1 and base not in found else f"{base}_{len(found) + 1}"
             found[name] = UnknownObject(pose=Pose(x, y), footprint=Footprint(disc=math.ceil(radius)), height=tall)
     return found
+
+
+def unlooked(seen: Observation) -> Observation:
+    """Return what is known of a bench when no camera over its table can be used: where parts stand that only a camera
+    finds is unknown, which is told once; nothing says that they are gone."""
+    names = [name for name, part in seen.components.items() if part.presence == "missing"]
+    if not names:
+        return seen
+    blind = {name: replace(seen.components[name], how=UNLOOKED) for name in names}
+    rest = tuple(p for p in seen.problems if not (p.code in _OF_A_LOOK and p.address in names))
+    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
+    text = f"no camera over the table can be used; of unknown place: {', '.join(names[:_NAMED])}{more}"
+    told = warning(NO_VIEW, text, hint="`pico devices check` says what is wrong with the cameras")
+    return replace(seen, components={**seen.components, **blind}, problems=(told, *rest))
 
 
 def no_cameras(setup: Setup) -> PicoError:

@@ -46,12 +46,12 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     from pico.backends.hardware.guard.note import CODE as GUARD
     from pico.edge.guard.table_lock import CODE as TABLE_LOCK
     from pico.model.instruments.fault import CODES as FAULTS
-    from pico.model.observation import LOST, left_standing
+    from pico.model.observation import LOST, NO_VIEW, left_standing
 
     found = goes_on(opened)
     cut = found or (*(cut_short(opened, seen) or _interrupted(opened)), *left_standing(opened.setup, seen))
     doses = opened.wait(opened.edge.doses())
-    ill = (problem for problem in seen.problems if problem.code in (LOST, GUARD, TABLE_LOCK, *FAULTS))
+    ill = (problem for problem in seen.problems if problem.code in (LOST, GUARD, TABLE_LOCK, NO_VIEW, *FAULTS))
     early = (one for one in told(opened.place) if one not in cut)
     return (*unattended(opened), *ill, *early, *cut, *(note for one in doses for note in _dose(one)))
 

@@ -17,6 +17,10 @@ from pico.model.record import record
 from pico.model.setup import Setup
 from pico.model.state import ComponentState, LabState
 
+NO_VIEW = "no-view"
+"""The code of what is said if no camera over the table can be used."""
+UNLOOKED = "unlooked"
+"""How a component is known of which nothing is known for that reason."""
 Presence = Literal["seen", "missing", "held", "toppled"]
 LACKING = ("driver", "plugin", "kind", "emulator")
 """Codes of problems of one device alone: its driver is not installed, or is broken, or nothing emulates it."""
@@ -47,6 +51,7 @@ class ObservedComponent:
 
     `how` its pose is known: `stereo`, `known height` (one camera), `in hand`; `fixed` where the lab says; `gripper`;
     `remembered`, `placed` where something hides it and it was seen, or put down by an arm, last; empty: exactly.
+    `unlooked` of one that is `missing` only because no camera over the table can be used.
     """
 
     presence: Presence = "seen"
@@ -55,6 +60,11 @@ class ObservedComponent:
     age: float = 0.0
     values: Mapping[str, ObservedValue] = field(default_factory=dict)
     how: str = ""
+
+    @property
+    def is_unlooked(self) -> bool:
+        """Whether its place is unknown because nothing looked, and not because a look did not find it."""
+        return self.presence == "missing" and self.how == UNLOOKED
 
 
 @record

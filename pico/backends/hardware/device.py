@@ -174,9 +174,13 @@ class HardwareDevice:
                     await lamps[address].set(False)
 
     async def _looked(self, bench: Instruments) -> Look:
+        from pico.backends.sight import unlooked
+
         frames = [await self._frame(bench, name) for name in sorted(bench.cameras)]
         known = await self._felt(bench, recall_hands(self.place))
         found = await asyncio.to_thread(self._seen, frames, known)
+        if not frames:
+            found = replace(found, observation=unlooked(found.observation))
         self._shown.looked(found.observation)
         self.links.lights().gates = self._gates(found.observation)
         return found

@@ -72,6 +72,8 @@ def uncertain(setup: Setup, name: str, part: ObservedComponent, slot: str | None
 
 
 def _text(setup: Setup, name: str, part: ObservedComponent | None, slot: str | None) -> str:
+    if part is not None and part.is_unlooked:
+        return "unknown: no camera over the table can be used"
     if part is None or part.presence == "missing" or (part.pose is None and part.presence == "seen"):
         return "nobody sees it"
     if part.presence != "seen" or part.pose is None:

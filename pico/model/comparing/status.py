@@ -249,7 +249,7 @@ def _note(setup: Setup, name: str, part: ObservedComponent | None) -> str:
     if part is None or (part.pose is None and part.presence == "seen"):
         return "missing"
     if part.presence != "seen":
-        return part.presence
+        return "unknown" if part.is_unlooked else part.presence
     return "uncertain" if doubtful(setup, name, part) else ""
 
 

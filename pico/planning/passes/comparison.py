@@ -48,7 +48,7 @@ def _absences(setup: Setup, seen: Observation, wanted: LabState) -> Iterator[Dia
                 hint="set it upright by hand, then plan again", address=name,
             )  # fmt: skip
         elif (part is None or part.presence == "missing" or part.pose is None) and name in wanted.components:
-            if part is not None and part.presence == "held":
+            if part is not None and (part.presence == "held" or part.is_unlooked):
                 continue
             slot, pose = place_of(setup, wanted, name)
             yield warning(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import time
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -19,14 +20,18 @@ from pico.backends.hardware.links import Links
 from pico.backends.hardware.reading import sensed, told
 from pico.backends.hardware.settings import Settings
 from pico.backends.last_seen import Taken
-from pico.diagnostics import PicoError, error
+from pico.backends.sight import unlooked
+from pico.diagnostics import PicoError, error, warning
 from pico.drivers.driven import Emitting, Motorized
 from pico.drivers.protocols import ArmState, Grip, SafetyState
 from pico.drivers.registry import Buses, driver
+from pico.model.comparing.drift import drift_of
+from pico.model.comparing.status import compare
 from pico.model.instruments.conversion import conversion
-from pico.model.observation import Observation, ObservedValue
+from pico.model.observation import NO_VIEW, Observation, ObservedComponent, ObservedValue
 from pico.model.pose import Pose
 from pico.model.setup import Setup
+from pico.model.state import ComponentState, LabState
 from pico.model.wiring import SafetyEntry, Wired
 from pico.twin.arms import TwinArm
 
@@ -183,3 +188,23 @@ def test_a_camera_that_fails_is_asked_again_but_not_for_long(
     with pytest.raises(PicoError):
         asyncio.run(about._frame(bench, "left"))
     assert len(grabs) == asked
+
+
+def test_parts_are_of_unknown_place_and_not_missing_if_no_camera_can_be_used(setup: Setup) -> None:
+    text = "no camera sees its marker"
+    seen = Observation(
+        backend="emulated", problems=(warning("marker-hidden", text, address="p2"),),
+        components={
+            "p2": ObservedComponent(presence="missing"), "laser": ObservedComponent(pose=Pose(200, 420), how="fixed"),
+        },
+    )  # fmt: skip
+    found = unlooked(seen)
+    (told_once,) = found.problems
+    assert told_once.code == NO_VIEW and "of unknown place: p2" in told_once.summary
+    assert found.components["p2"].is_unlooked and not found.components["laser"].is_unlooked
+    state = LabState(lab=setup.lab.name, components={"p2": ComponentState(pose=Pose(520, 420, 30))})
+    row = next(r for r in compare(setup, None, state, found, "").rows if r.address == "p2")
+    assert row.note == "unknown"
+    (change,) = [c for c in drift_of(setup, found, state) if c.component == "p2"]
+    assert change.text.startswith("unknown: no camera over the table can be used")
+    assert unlooked(replace(seen, components={}, problems=())).problems == (), "nothing is told if nothing is lost"
