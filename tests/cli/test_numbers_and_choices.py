@@ -20,6 +20,7 @@ PARTS = """inventory:
   pd: {type: photodiode, pose: {x: 900, y: 420, yaw: 0}}
   chop: {type: chopper, pose: {x: 300, y: 700, yaw: 0}}
   flip: {type: mirror_flip, pose: {x: 900, y: 700, yaw: 0}}
+  flap: {type: mirror_flip_motorized, pose: {x: 1000, y: 700, yaw: 0}}
 """
 DEVICES = """apiVersion: pico/v1
 kind: Devices
@@ -53,6 +54,19 @@ devices:
     identity: {serial: "10900042", model: ELL9}
     map: {blades: {property: position}}
     settings: {positions: {1: open, 2: closed, 3: turning}}
+  chop_drive:
+    of: chop
+    driver: scpi.number
+    address: {visa: "TCPIP0::192.0.2.3::5025::SOCKET", part: rate}
+    limits: {value: [10, 500]}
+    map: {frequency: {property: value}}
+    settings: {read: "FREQ?", set: "FREQ {}", unit: Hz}
+  flap_mount:
+    of: flap
+    driver: scpi.choice
+    address: {visa: "TCPIP0::192.0.2.3::5025::SOCKET", part: flap}
+    map: {flipped: {property: position}}
+    settings: {read: "FLIP?", set: "FLIP {}", positions: {0: up, 1: down}}
   flip_foreign:
     of: flip
     driver: newport.picomotor
@@ -87,7 +101,7 @@ def lab(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_lab_whose_driver_is_not_installed_validates_plans_and_lists_its_devices(lab: Path, pico: Pico) -> None:
     answer = pico("validate")
     assert answer.code == 0 and answer.err.count("warning[driver]") == 1 and "error" not in answer.err, answer.err
-    assert "flip_foreign" in answer.err and "devices.yaml:35:13" in answer.err, answer.err
+    assert "flip_foreign" in answer.err and "devices.yaml:48:13" in answer.err, answer.err
     assert "`pip install pico-newport`" in answer.err
     assert pico("status").code == 0
     assert "lens" in pico("plan").out
@@ -132,6 +146,12 @@ def test_numbers_and_positions_reach_the_lab_and_the_bench_works_without_what_it
     assert "at_3" in pico("--emulate", "get", "wheel.position").out
     assert pico("--emulate", "set", "chop", "blades=turning", "--yes").code == 0
     assert "turning" in pico("--emulate", "get", "chop.blades").out
+    assert pico("--emulate", "set", "chop", "frequency=120", "--yes").code == 0
+    assert "120 Hz" in pico("--emulate", "get", "chop.frequency").out
+    beyond = pico("--emulate", "set", "chop", "frequency=900", "--yes")
+    assert beyond.code != 0 and "500" in beyond.err, beyond
+    assert pico("--emulate", "set", "flap", "flipped=down", "--yes").code == 0
+    assert "down" in pico("--emulate", "get", "flap.flipped").out
     status = pico("--emulate", "status")
     assert status.code == 0 and f"flip_foreign can't be used: {FOREIGN}" in status.err, status.err
     assert pico("--emulate", "set", "laser", "shutter=closed", "--yes").code == 0
