@@ -30,8 +30,8 @@ STOP = StateFile(
 DOSE = StateFile(
     BENCH + "dose.json", "safety", "how much light each sample has had, and gets",
     "the edge, while samples are on the bench",
-    "the doses of the samples: they count from zero again",
-    ASIDE + " counts every sample from zero: lower `dose_budget` in lab.yaml by what the runs of a sample report first",
+    "the doses of the samples between operations: the rest is counted again from the journal",
+    ASIDE + "; the journal is then counted again: lower `dose_budget` in lab.yaml by the light between operations",
     Format("pico.dose"),
 )  # fmt: skip
 UNATTENDED = StateFile(

@@ -18,6 +18,11 @@ if TYPE_CHECKING:
     from pico.model.trace.dose import Dose
     from pico.runs.journal import RunRecord
 
+_RECOUNTED = (
+    "its count was gone, and was made anew of the journal, without the light between operations: lower `dose_budget` "
+    "of {} in lab.yaml by that light"
+)
+
 
 def cut_short(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
     """Return that a run was killed, and what hands hold though nobody moves the bench; and what goes on from there."""
@@ -60,7 +65,8 @@ def _dose(one: Dose) -> Iterator[Diagnostic]:
     now = f"{one.power:.3g} mW fall on it now" if one.power else ""
     if one.spent or one.power or one.budget is not None:
         left = "" if one.left is None else f"; {one.left:.4g} mJ are left"
-        yield Diagnostic("note", "dose", f"{one.said}{left}", detail=now, address=one.component)
+        hint = _RECOUNTED.format(one.component) if one.at_least else ""
+        yield Diagnostic("note", "dose", f"{one.said}{left}", detail=now, hint=hint, address=one.component)
 
 
 def unattended(opened: Opened) -> tuple[Diagnostic, ...]:

@@ -7,6 +7,7 @@ import json
 import re
 import subprocess
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -16,6 +17,7 @@ import pytest
 from bench_at import bench_at
 from laser_lab import POSES, UNKNOWN, bench, carry, commanded, observed, set_to
 
+from pico.base.state_files import JOURNAL
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge import armings, dose, emission
 from pico.model.arming import CLASSES, Arming, ArmingPolicy, LaserRole, Licence
@@ -25,7 +27,9 @@ from pico.model.operation import Operation, OperationResult
 from pico.model.setup import Setup
 from pico.optics.audit.findings import Audit, Finding
 from pico.policy import audit
+from pico.policy import dose as dose_policy
 from pico.policy.audit import Lit
+from pico.runs.journal import Journal
 
 NOON, ONE, EVENING, NIGHT = (f"2026-11-24T{hour}:00:00Z" for hour in ("12", "13", "18", "22"))
 ROLES = {"user": LaserRole(people=("Ada",), laser_class="3B", hours=8.0)}
@@ -440,6 +444,24 @@ def test_a_ledger_that_cannot_be_read_is_never_read_as_no_light(tmp_path: Path, 
         dose.read(bench_at(tmp_path))
     found = refused.value.diagnostics[0]
     assert str(path) in found.summary and "doses" in found.detail and "mv " in found.hint
+
+
+def test_a_ledger_that_is_gone_is_counted_again_from_the_journal_and_said_to_be_the_least(tmp_path: Path) -> None:
+    place = bench_at(tmp_path)
+    place.folder.mkdir(parents=True, exist_ok=True)
+    with closing(Journal(JOURNAL.path(place.folder))) as journal:
+        journal.begin_run("r1", "plan", "test")
+        for number, had in enumerate(({"W1": 4.0}, {"W1": 3.0, "W2": 1.0}, {})):
+            key = f"r1/op{number}/1"
+            journal.intend(key, set_to("cam", "exposure", number), 1)
+            journal.started(key, None, 1)
+            journal.ended(OperationResult(key=key, outcome="done", data={"dose": had} if had else {}), 1)
+    assert dose.read(place) == dose.Ledger(spent={"W1": 7.0, "W2": 1.0}, least=frozenset({"W1", "W2"}))
+    kept = dose.counted(held(), place, replace(observed(laser=LIT), time=5.0))
+    assert dose.read(place) == kept and kept.spent["W1"] == 7.0
+    (one,) = kept.doses(held())
+    assert one.said == "W1 in holder has had at least 7 of its 10 mJ of light"
+    assert dose_policy.over(one, 4.0, 1.0), "a deleted file is no new sample"
 
 
 @pytest.mark.parametrize("spent", [0.0, 9.0])

@@ -8,13 +8,14 @@ from pico.model.record import record
 @record
 class Dose:
     """What the `sample` in a `component` has had [mJ], of a `budget` where it has one, and the `power` that falls on it
-    now [mW]."""
+    now [mW]. `at_least`: it had that much or more, for what the bench had counted was gone."""
 
     sample: str
     component: str
     spent: float
     budget: float | None = None
     power: float = 0.0
+    at_least: bool | None = None
 
     @property
     def left(self) -> float | None:
@@ -25,4 +26,5 @@ class Dose:
     def said(self) -> str:
         """`WSe2-041 in holder1 has had 4.8 of its 5 mJ of light`."""
         of = f" of its {self.budget:g} mJ" if self.budget is not None else " mJ"
-        return f"{self.sample} in {self.component} has had {self.spent:.4g}{of} of light"
+        least = "at least " if self.at_least else ""
+        return f"{self.sample} in {self.component} has had {least}{self.spent:.4g}{of} of light"
