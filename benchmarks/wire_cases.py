@@ -187,25 +187,25 @@ CASES: dict[str, Case] = {
         others=(b"null\n", b"[]\n", b"{}\n", b"\n", b'{"id": 1e999}\n', b"{" * 5000 + b"\n")),
 }  # fmt: skip
 ROBOT: dict[str, Case] = {
-    "xarm.arm joints": Case(
+    "xarm.arm-joints": Case(
         xarm.ARM, {}, xarm.asks(xarm.JOINTS), xarm.joints, xarm.posture, xarm.joints_of, xarm.other_joints,
         odd=xarm.odd(*xarm.ODD_JOINTS), wire=xarm.wire),
-    "xarm.arm state": Case(
+    "xarm.arm-state": Case(
         xarm.ARM, {}, xarm.asks(xarm.STATE), xarm.moving, lambda draw: ("state", draw.choice([2, 4])), xarm.moving_of,
         xarm.with_warning, odd=xarm.odd(*xarm.ODD_STATE), wire=xarm.wire),
-    "xarm.arm fault": Case(
+    "xarm.arm-fault": Case(
         xarm.ARM, {}, xarm.asks(xarm.FAULT), xarm.fault, lambda draw: ("fault", draw.choice([0, 0, 22, 31])),
         xarm.fault_of, xarm.with_warning, odd=xarm.odd(*xarm.ODD_STATE), wire=xarm.wire),
-    "xarm.arm report": Case(
+    "xarm.arm-report": Case(
         xarm.ARM, {}, lambda asked: asked == b"report30002", xarm.enabled, lambda draw: ("", None), xarm.enabled_of,
         xarm.other_motors, odd=xarm.odd(*xarm.ODD_REPORT), wire=xarm.wire, first=lambda arm: arm.ready()),
-    "xarm.gripper position": Case(
+    "xarm.gripper-position": Case(
         xarm.GRIPPER, {}, xarm.asks(xarm.RTU, bytes([8, 3, 0x07, 0x02])), xarm.width, xarm.position, xarm.width_of,
         xarm.with_warning, odd=xarm.ill_modbus, wire=xarm.wire),
-    "xarm.gripper status": Case(
+    "xarm.gripper-status": Case(
         xarm.GRIPPER, {}, xarm.asks(xarm.RTU, bytes([8, 3, 0, 0])), xarm.holds, xarm.position, xarm.holds_of,
         xarm.with_warning, odd=xarm.ill_modbus, wire=xarm.wire),
-    "xarm.gripper fault": Case(
+    "xarm.gripper-fault": Case(
         xarm.GRIPPER, {}, xarm.asks(xarm.RTU, bytes([8, 3, 0, 0x0F])), xarm.claw_fault,
         lambda draw: ("claw fault", draw.choice([0, 0, 9, 14])), xarm.claw_fault_of, xarm.with_warning,
         odd=xarm.ill_modbus, wire=xarm.wire),
@@ -217,7 +217,7 @@ CAMERAS: dict[str, Case] = {
     "realsense.camera": Case(
         cameras.DEPTH, {"gray": _gray()}, _asks(b"gray"), lambda one: one.grab(), _grays("uint8"),
         cameras.gray("uint8"), odd=cameras.odd, wire=cameras.wire("pyrealsense2", cameras.realsense)),
-    "realsense.camera depth": Case(
+    "realsense.camera-depth": Case(
         cameras.DEPTH, {"depth": _gray("uint16")}, _asks(b"depth"), lambda one: one.depth(), _grays("uint16", "depth"),
         cameras.depth, odd=cameras.odd, wire=cameras.wire("pyrealsense2", cameras.realsense)),
 }  # fmt: skip

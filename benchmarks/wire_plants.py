@@ -73,13 +73,13 @@ PLANTS: dict[str, Plant] = {
     "position": Plant(_set(scpi_values, position_of=_any_position), ("scpi.choice",)),
     "between": Plant(_set(elliptec_slider, OFF=17), ("elliptec.slider",)),
     "library": Plant(_as_the_library_has_it, (
-        "xarm.arm joints", "xarm.arm state", "xarm.gripper position", "xarm.gripper status", "xarm.gripper fault")),
-    "no fault": Plant(_no_fault, ("xarm.arm fault",)),
-    "motors": Plant(_ready_whatever_is_reported, ("xarm.arm report",)),
+        "xarm.arm-joints", "xarm.arm-state", "xarm.gripper-position", "xarm.gripper-status", "xarm.gripper-fault")),
+    "no fault": Plant(_no_fault, ("xarm.arm-fault",)),
+    "motors": Plant(_ready_whatever_is_reported, ("xarm.arm-report",)),
     "pixels": Plant(_set(judging, pixels=_believed), ("basler.camera", "realsense.camera")),
     "stale": Plant(
         _set(judging.Counted, require_newer=lambda *_: None),
-        ("basler.camera", "realsense.camera", "realsense.camera depth")),
-    "unit": Plant(_set(realsense, _UNIT=(-1e9, 1e9)), ("realsense.camera depth",)),
+        ("basler.camera", "realsense.camera", "realsense.camera-depth")),
+    "unit": Plant(_set(realsense, _UNIT=(-1e9, 1e9)), ("realsense.camera-depth",)),
 }  # fmt: skip
 """By name."""

@@ -249,7 +249,7 @@ def main() -> int:
     for name in wanted.only:
         counts, wrong = asyncio.run(fuzzed(name, CASES[name], wanted.replies, random.Random(f"{wanted.seed} {name}")))
         every += wrong
-        print(f"{name:18} {len(wrong)} wrong; " + ", ".join(f"{k} {n}" for k, n in sorted(counts.items())), flush=True)
+        print(f"{name:22} {len(wrong)} wrong; " + ", ".join(f"{k} {n}" for k, n in sorted(counts.items())), flush=True)
     for one in every[:40]:
         print(one)
     return 1 if every else 0

@@ -85,7 +85,8 @@ SMALLEST = {
     "startup": "--sizes 10 --repeat 1",
     "taken_up": "--moves 3",
     "teleop": "--stops 1 --arm 0 --sessions 2",
-    "wire_replies": "--replies 12 --only scpi.meter scpi.safety switches.laser elliptec.stage frames.camera",
+    "wire_replies": "--replies 12 --only scpi.meter scpi.safety switches.laser elliptec.slider frames.camera "
+    "scpi.choice realsense.camera xarm.gripper-fault",
     "through": "--seeds 1",
     "travel": "--sizes 8 --densities 0.2 --cases 1 --moves 2000",
     "twin_speed": "--moves 1",
