@@ -86,6 +86,8 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
         forged = len(forger.sent)
         said = bytes(forger.passed(b"report" + str(port).encode(), reported(port, box)))
         held[0] = time.monotonic() + HOLDS if len(forger.sent) > forged else 0.0
+        if held[0]:
+            _sent_at[:] = [time.monotonic()]
         return said
 
     server.answer, server.report = answer, report
@@ -104,6 +106,7 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
 # what is asked
 
 _forger = list[Any]()
+_sent_at = [0.0]
 
 
 async def joints(arm: Any) -> Any:
@@ -133,7 +136,9 @@ async def enabled(arm: Any) -> Any:
         ends = time.monotonic() + 2.0
         while forger.forge is not None and time.monotonic() < ends:
             await asyncio.sleep(0.005)
-        await asyncio.sleep(0.15)
+        until = time.monotonic() + 0.75 * HOLDS  # read by the library by then, on a busy machine, too
+        while arm._link._heard < _sent_at[-1] and time.monotonic() < until:
+            await asyncio.sleep(0.005)
     found = await arm.state()
     return None if found.lost or (clean and not found.enabled) else (found.enabled, found.fault)
 
