@@ -1,6 +1,6 @@
 """How many measurements alignment takes: PICO's own algorithms beside Nelder-Mead and CMA-ES.
 
-The first four problems are those of the literature's table (centre a spot by a lens, two mirrors into a fibre, a
+The first four problems are those of the literature's table (center a spot by a lens, two mirrors into a fiber, a
 crossed polarizer, a focus), the last two begin in the dark and go through two irises. All begin where parts come to
 stand that the arm puts down, drawn in all six ways from what the catalog says of their seats, never by how much light
 there is; the laser walks and drifts as the twin's does. The beam walk begins as `pico optimize` does, after mirrors
@@ -61,7 +61,7 @@ def _told(shape: Array, spread: Array, depth: float) -> Nominal:
     return Nominal(tuple(map(tuple, shape.tolist())), tuple(map(tuple, spread.tolist())), depth)
 
 
-def centre(rng: np.random.Generator) -> Bench:
+def center(rng: np.random.Generator) -> Bench:
     """A lens of 100 mm, 150 mm before a camera, behind two mirrors 900 and 300 mm before it and a laser 500 mm before
     those; its stages turned by 5 degrees, its gain unknown to 5 %. 0.25 um noise of the centroid, 2 um of the stages,
     clipped 2.5 mm off; to within 5 um."""
@@ -85,12 +85,12 @@ def centre(rng: np.random.Generator) -> Bench:
     told = _told(np.eye(2) / 2.5**2, np.diag(square), 1.0)
     variables = tuple(Variable(n, -2.0, 2.0, 0.0, reach=told.reach(k)) for k, n in enumerate(("stage_y", "stage_z")))
     problem = Problem(variables, ("x", "y"), "reach", {}, {"x": 5.0, "y": 5.0}, told)
-    return Bench("centre", problem, "mm", read, lambda at, world: float(np.linalg.norm(spot(at, world))) < 7.1,
+    return Bench("center", problem, "mm", read, lambda at, world: float(np.linalg.norm(spot(at, world))) < 7.1,
                  "centroid_newton", jitter=0.002, backlash=0.002)  # fmt: skip
 
 
-def fibre(rng: np.random.Generator, name: str, most: int, *, seen: bool) -> Bench:
-    """Two mirrors 300 mm apart and from a fibre, a laser 500 mm before them, arms to 2 %; w = 0.5 mm; noise 0.5 %, and
+def fiber(rng: np.random.Generator, name: str, most: int, *, seen: bool) -> Bench:
+    """Two mirrors 300 mm apart and from a fiber, a laser 500 mm before them, arms to 2 %; w = 0.5 mm; noise 0.5 %, and
     1e-4 of all the light. To 95 %. What is known is nominal: arms, widths, and how well the catalog says that parts are
     put down."""
     spread, nominal = 632.8e-6 / (math.pi * 0.5), np.array([[1.2, 0.6], [2e-3, 2e-3]])
@@ -126,13 +126,13 @@ def fibre(rng: np.random.Generator, name: str, most: int, *, seen: bool) -> Benc
 
 
 def beam_walk(rng: np.random.Generator) -> Bench:
-    """Two mirrors before a fibre, which made up for what cameras saw of how parts stand."""
-    return fibre(rng, "beam walk", 400, seen=True)
+    """Two mirrors before a fiber, which made up for what cameras saw of how parts stand."""
+    return fiber(rng, "beam walk", 400, seen=True)
 
 
 def dark(rng: np.random.Generator) -> Bench:
     """The same, from as parts were put down."""
-    return fibre(rng, "dark start", 150, seen=False)
+    return fiber(rng, "dark start", 150, seen=False)
 
 
 def malus(rng: np.random.Generator) -> Bench:
@@ -206,8 +206,8 @@ def _told_of_irises() -> Nominal:
     return _told(shape, where, 1.0)
 
 
-PROBLEMS = (centre, beam_walk, malus, waist, dark, irises)
-BARS = {"centre": (6, 9), "beam walk": (9, 16), "Malus": (5, 7), "waist": (5, 7), "dark start": (150, 150),
+PROBLEMS = (center, beam_walk, malus, waist, dark, irises)
+BARS = {"center": (6, 9), "beam walk": (9, 16), "Malus": (5, 7), "waist": (5, 7), "dark start": (150, 150),
         "two irises": (60, 60)}  # fmt: skip
 
 

@@ -67,7 +67,7 @@ LABS: Mapping[str, tuple[str, str]] = {
         + "  cam: {type: quick_camera, pose: {x: 640, y: 510, yaw: 0}}\n",
         LIT,
     ),
-    "fibre": (STEERED + "  fibre: {type: fiber_coupler, marker: 3, pose: {x: 620, y: 510, yaw: 0}}\n", LIT),
+    "fiber": (STEERED + "  fiber: {type: fiber_coupler, marker: 3, pose: {x: 620, y: 510, yaw: 0}}\n", LIT),
     "crossed": (
         "inventory:\n"
         "  laser: {type: hene_laser, pose: {x: 120, y: 220, yaw: 0}}\n"
@@ -113,7 +113,7 @@ def off_centre(detector: str) -> Callable[[Table], float]:
 
 
 def power(detector: str, sign: float) -> Callable[[Table], float]:
-    """Return the power on a detector [mW], or what of it a fibre takes; `sign` -1 where more is better."""
+    """Return the power on a detector [mW], or what of it a fiber takes; `sign` -1 where more is better."""
 
     def taken(table: Table) -> float:
         light, kind = light_on(table), table.setup.type_of(detector)
@@ -154,12 +154,12 @@ SOUGHT: Mapping[str, Sought] = {
                      CAM.replace("TOL", "5") + _budget(40), ("centroid_newton", "rcds"), off_centre("cam")),
     "focus": Sought("camera", _all("lens.stage_x", -6, 6), _all("lens.stage_x", -6, 6),
                     "minimize: cam.width.major" + _budget(20), ("waist_parabola", "nelder_mead"), width("cam")),
-    "tip": Sought("fibre", _all("m2.tip m2.tilt", -2, 2), _all("m2.tip m2.tilt", -0.4, 0.4),
-                  "maximize: fibre.power" + _budget(50), ("peak", "nelder_mead", "rcds", "cma_es"),
-                  power("fibre", -1)),
-    "walk": Sought("fibre", _all("m1.tip m1.tilt m2.tip m2.tilt", -2, 2),
-                   _all("m1.tip m1.tilt m2.tip m2.tilt", -0.2, 0.2), "maximize: fibre.power" + _budget(90),
-                   ("nelder_mead", "peak", "rcds"), power("fibre", -1)),
+    "tip": Sought("fiber", _all("m2.tip m2.tilt", -2, 2), _all("m2.tip m2.tilt", -0.4, 0.4),
+                  "maximize: fiber.power" + _budget(50), ("peak", "nelder_mead", "rcds", "cma_es"),
+                  power("fiber", -1)),
+    "walk": Sought("fiber", _all("m1.tip m1.tilt m2.tip m2.tilt", -2, 2),
+                   _all("m1.tip m1.tilt m2.tip m2.tilt", -0.2, 0.2), "maximize: fiber.power" + _budget(90),
+                   ("nelder_mead", "peak", "rcds"), power("fiber", -1)),
     "null": Sought("crossed", _all("p2.angle", 0, 180), _all("p2.angle", 5, 175), "minimize: pd.voltage" + _budget(20),
                    ("malus", "nelder_mead"), power("pd", 1)),
     "shel": Sought("shel", _all("ly_150.stage_y ly_150.stage_z", -1.5, 1.5),

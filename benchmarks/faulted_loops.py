@@ -267,7 +267,7 @@ def kill(place: Path, kills: int, seed: int) -> int:
 
     preload()
     wrong, began, bench = 0, time.monotonic(), Kills(place, seed)
-    names = [name for name in SOUGHT if SOUGHT[name].lab in ("camera", "fibre", "crossed")]
+    names = [name for name in SOUGHT if SOUGHT[name].lab in ("camera", "fiber", "crossed")]
     number = 0
     while bench.count["command killed"] + bench.count["server killed"] < kills:
         name = names[number % len(names)]

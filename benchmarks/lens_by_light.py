@@ -2,7 +2,7 @@
 the arm alone.
 
 For each seed the case study's bench is made anew, its lenses are put in their places by the arm with what physics and
-cameras make of that, in a world that drifts, and `centre ly_150 cam` is sought. Printed are how far the spot was from
+cameras make of that, in a world that drifts, and `center ly_150 cam` is sought. Printed are how far the spot was from
 the middle of the camera before and after, and how many measurements that took.
 
 With `--by-arm` a lens without a stage stands one focal length before the camera of the minimal bench, and the arm puts
@@ -48,7 +48,7 @@ def run(folder: Path, seed: int, fidelity: str) -> tuple[float, float, int, bool
         report = bench.apply("e1")
         if report.outcome != "done":
             return math.nan, math.nan, 0, False
-        found = bench.optimize("centre", "ly_150", "cam")
+        found = bench.optimize("center", "ly_150", "cam")
         first, last = (
             math.hypot(of["cam.centroid.x"], of["cam.centroid.y"]) if of else math.nan
             for of in (found.first, found.last)
@@ -67,7 +67,7 @@ def by_arm(folder: Path, seed: int, fidelity: str) -> tuple[float, float, int, b
         if report.outcome != "done":
             return math.nan, math.nan, 0, False
         first = true_off(bench)
-        found = bench.placing.centre("lens", "camera")
+        found = bench.placing.center("lens", "camera")
         return first, true_off(bench), len(found.tries) - 1, found.met
 
 

@@ -1,12 +1,12 @@
-"""From parts put down by the arm to light in a fibre: an iris, then a camera, then the fibre, begun in the dark.
+"""From parts put down by the arm to light in a fiber: an iris, then a camera, then the fiber, begun in the dark.
 
 For each seed a bench is made anew: a laser of 0.1 mW behind its filter, two mirrors with tip and tilt, an iris,
-splitters to a power meter and to a lens with a camera in its focus, a fibre coupler. The arm puts mirrors, iris, lens,
+splitters to a power meter and to a lens with a camera in its focus, a fiber coupler. The arm puts mirrors, iris, lens,
 meter and coupler down, each off in all six ways by what the catalog says of its seat, in a world that drifts and walks;
-splitters, laser and camera are bolted. No start is drawn by its power. Then one goal of the lab is sought, `fibre`; it
+splitters, laser and camera are bolted. No start is drawn by its power. Then one goal of the lab is sought, `fiber`; it
 comes after `near` (light behind the iris, stopped down to 2 mm) and `far` (the spot in the middle of the camera).
 
-Counted is every measurement of all stages, with the first, which finds it dark. Light is found where the fibre takes at
+Counted is every measurement of all stages, with the first, which finds it dark. Light is found where the fiber takes at
 least 90 % of what the mirrors could bring into it, by the traced bench as it truly is: only the judge reads that.
 
     python benchmarks/stages.py [--seeds 40] [--loose]
@@ -43,7 +43,7 @@ BOLTED, MOVED = "pose: {{x: {x}, y: 440, yaw: 90}}", "marker: {marker}, home: st
 LAB = """\
 apiVersion: pico/v1
 kind: Lab
-metadata: {{name: coupling, title: A laser into a fibre}}
+metadata: {{name: coupling, title: A laser into a fiber}}
 table: {{size: [1200, 900], beam_height: 70}}
 slots:
 {slots}
@@ -60,7 +60,7 @@ goals:
     tunables: {{m2.tip: [-12, 12], m2.tilt: [-12, 12]}}
     reach: {{cam.centroid.x: 0, cam.centroid.y: 0}}
     tolerance: 20
-  fibre:
+  fiber:
     after: [near, far]
     tunables: {{m1.tip: [-20, 20], m1.tilt: [-20, 20], m2.tip: [-20, 20], m2.tilt: [-20, 20]}}
     maximize: coupler.power
@@ -99,7 +99,7 @@ components:
 @dataclass(frozen=True)
 class Found:
     """What became of a seed: whether it began in the `dark`, measurements up to the end of each stage and in all,
-    whether the goal said that it was met, the share of the light that the fibre truly takes, and simulated seconds."""
+    whether the goal said that it was met, the share of the light that the fiber truly takes, and simulated seconds."""
 
     dark: bool
     stages: Mapping[str, int]
@@ -126,14 +126,14 @@ def run(folder: Path, seed: int, loose: bool = False) -> Found:
         report = bench.apply()
         if report.outcome != "done":
             raise SystemExit(f"seed {seed}: the bench was not built")
-        found = bench.optimize("fibre")
+        found = bench.optimize("fiber")
         setup = bench.setup
     stages = {str(one["goal"]): int(one["measurements"]) for one in found.stages}
     return Found(found.first is None, stages, found.measurements, found.met, taken(setup, folder), found.seconds)
 
 
 def taken(setup: Setup, folder: Path) -> float:
-    """Return the share that the fibre truly takes of what it would with the mirrors at their best: the logarithm of the
+    """Return the share that the fiber truly takes of what it would with the mirrors at their best: the logarithm of the
     power is a parabola, whose top Newton's method finds; 0 where no light comes to it at all."""
     world = load_world(setup, BenchPlace(folder, "sim"))[0]
     standing = {n: b for n, b in world.components.items() if b.presence == "seen" and b.pose is not None}

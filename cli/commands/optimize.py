@@ -37,7 +37,7 @@ def optimize(
         float | None,
         typer.Option("--offline", metavar="SECONDS", help="Go on so long where the bench is cut off."),
     ] = None,
-    by_arm: Annotated[bool, typer.Option("--by-arm", help="`centre`: the arm puts the part down anew.")] = False,
+    by_arm: Annotated[bool, typer.Option("--by-arm", help="`center`: the arm puts the part down anew.")] = False,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -46,17 +46,17 @@ def optimize(
     """Set and measure until light is as a goal wants it.
 
     The best is kept. Without a goal those that there are are listed: `goals:` of `lab.yaml`, and ready made ones
-    with the words that they take (`centre PART CAMERA`, `through IRIS IRIS`, `fibre COUPLER`). Ctrl-C ends at the
+    with the words that they take (`center PART CAMERA`, `through IRIS IRIS`, `fiber COUPLER`). Ctrl-C ends at the
     best point; so does a bench that is cut off from its coordinator, once its lease is over and what `--offline` (or
     `offline` in the goal's `budget`) says is spent. The exit code is 6 where the goal was not met; `pico undo` goes
     back.
 
     Examples:
-      pico optimize centre ly_150 cam
+      pico optimize center ly_150 cam
       pico optimize null p2 cam --plot null.png
       pico optimize through iris1 iris2 --dry-run
       pico optimize centred --dry-run
-      pico optimize centre lens camera --by-arm
+      pico optimize center lens camera --by-arm
     """
     from pico.diagnostics import PicoError, error
 
@@ -79,13 +79,14 @@ def optimize(
 
 
 def _by_arm(session: Session, bench: Bench, goal: list[str], dry_run: bool, auto_approve: bool) -> int:
+    from pico.bench.ready.registry import current
     from pico.diagnostics import ExitCode, PicoError, error
 
     from ..runs.approving import declined, show
     from ..runs.running import say
 
-    if len(goal) != 3 or goal[0] != "centre":
-        raise PicoError(error("usage", "--by-arm goes with `centre PART CAMERA`"))
+    if len(goal) != 3 or current(goal)[0] != "center":
+        raise PicoError(error("usage", "--by-arm goes with `center PART CAMERA`"))
     placing = bench.placing
     plan = placing.plan(goal[1])  # what each try is like
     told = plan.operations or plan.errored or session.json
@@ -102,7 +103,7 @@ def _by_arm(session: Session, bench: Bench, goal: list[str], dry_run: bool, auto
         if not session.json:
             session.say(placed_view.line(one))
 
-    found = placing.centre(goal[1], goal[2], say=say, tell=tell)
+    found = placing.center(goal[1], goal[2], say=say, tell=tell)
     session.show(placed_view, found)
     return int(ExitCode.DONE if found.met else ExitCode.EXPECTATION)
 

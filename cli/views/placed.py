@@ -22,7 +22,7 @@ def line(one: Try) -> str:
 def ahead(component: str, detector: str) -> str:
     """Return what the arm is about to do."""
     asked = (
-        f"centre {component} {detector}: the light is measured; while it is more than {NEAR:g} mm off by it, the arm"
+        f"center {component} {detector}: the light is measured; while it is more than {NEAR:g} mm off by it, the arm"
     )
     tries = f"puts {component} down anew, {MOST} times at most, the laser shut meanwhile."
     return "\n".join(wrap(f"{asked} {tries}", "  "))
@@ -31,7 +31,7 @@ def ahead(component: str, detector: str) -> str:
 def text(found: Placed) -> str:
     """Return the outcome in a line, the tries, and how to go back."""
     times, said = len(found.tries) - 1, paint("green", "met") if found.met else paint("yellow", "not met")
-    lines = wrap(f"centre {found.component} {found.detector}: {said}, put down {count(times, 'time')}", "  ")
+    lines = wrap(f"center {found.component} {found.detector}: {said}, put down {count(times, 'time')}", "  ")
     lines += wrap(f"It ended because {found.why}.", "  ") if not found.met else []
     rows = [[paint("dim", cell) for cell in ("sent to", "off by the light", "run")]]
     seen = [_mm(t.off) or ("not measured" if t.why == found.why else t.why) for t in found.tries]

@@ -170,7 +170,7 @@ class Bench(Opened):
         return self.moves.apply(what)
 
     def optimize(self, *goal: str, algorithm: str | None = None) -> Optimized:
-        """Bring light to a goal, `optimize("centred")` or `optimize("centre", "ly_150", "cam")`, and return what became
+        """Bring light to a goal, `optimize("centred")` or `optimize("center", "ly_150", "cam")`, and return what became
         of it; see `Goals`. Raises PicoError for what makes no sense, and where it can't be begun. A signal ends it at
         the best point before it does what it would have done."""
         came: list[int] = []

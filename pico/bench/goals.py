@@ -112,7 +112,7 @@ class Goals:
         self, words: Sequence[str] | Goal, name: str = "asked", algorithm: str | None = None,
         offline: float | None = None,
     ) -> Chosen:  # fmt: skip
-        """Return a goal: of the Lab by its name, a ready-made one (`centre ly_150 cam`), or the one given, as `name`;
+        """Return a goal: of the Lab by its name, a ready-made one (`center ly_150 cam`), or the one given, as `name`;
         and the algorithm, `algorithm` where that is said. `offline`: how long it may go on where the bench is cut off
         from its coordinator [s], instead of what its budget says. Raises PicoError for what is wrong with it."""
         from pico.manifest.checks.goals import require_goal
@@ -137,13 +137,14 @@ class Goals:
         return reckoned(self.opened.setup, (*first, one)) if known is None else known
 
     def _of(self, words: list[str]) -> Ready:
-        from pico.bench.ready.registry import known, made_ready
+        from pico.bench.ready.registry import current, known, made_ready
 
-        what, goals = words[0], self.opened.setup.lab.goals or {}
-        if what in goals and len(words) == 1:
-            return Ready(what, goals[what])
+        goals = self.opened.setup.lab.goals or {}
+        if words[0] in goals and len(words) == 1:
+            return Ready(words[0], goals[words[0]])
         if (found := self._referred(words)) is not None:
             return found
+        what, *_ = words = list(current(words))
         if what not in known():
             names = (*self.named, *known())
             hint = did_you_mean(what[:40], names) or f"known: {', '.join(names)}"

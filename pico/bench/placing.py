@@ -77,7 +77,7 @@ class Placing:
         words = {"x": f"{goal.x:.4f}", "y": f"{goal.y:.4f}", "yaw": f"{goal.yaw:.4f}"}
         return Plans(self.opened).single(component, "move", words)
 
-    def centre(
+    def center(
         self, component: str, detector: str, *, most: int = MOST, near: float = NEAR,
         show: Callable[[Event], None] = lambda _: None, say: Callable[[str], None] = lambda _: None,
         tell: Callable[[Try], None] = lambda _: None,

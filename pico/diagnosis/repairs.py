@@ -75,4 +75,4 @@ def _by_light(setup: Setup, part: str, values: Mapping[str, Mapping[str, Any]]) 
             return f"`pico optimize {name}`"
     mover = part if part in steering else next(iter(sorted(steering)), "")
     cameras = [n for n in sorted(values) if "centroid" in setup.measurables_of(n)]
-    return f"`pico optimize centre {mover} {cameras[0]}`" if mover and cameras else ""
+    return f"`pico optimize center {mover} {cameras[0]}`" if mover and cameras else ""

@@ -140,7 +140,7 @@ class Arm(Instrument, Protocol):
         ...
 
     async def carry(self, mass: float, center: tuple[float, float, float]) -> None:
-        """Reckon with `mass` [kg] in the hand beside its usual load, 0 for none, its centre [mm] from the flange; at
+        """Reckon with `mass` [kg] in the hand beside its usual load, 0 for none, its center [mm] from the flange; at
         rest. Raises PicoError where it can't."""
         ...
 

@@ -18,7 +18,7 @@ BREADTH = 22.0
 class Body:
     """One shape of the housing, for the twin and for pictures, in the component's frame [mm]: z = 0 is the table.
 
-    `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its centre.
+    `size`: full edge lengths of a `box` along x, y, z; diameter and length of a `cylinder`. `at`: its center.
     `axis`: what a cylinder's length runs along. `rides`: the stage, one of the tunables `stage_x` to `stage_z`, that
     carries it; `at` is where it is when that is at 0. Pictures in perspective show it where it is.
     """

@@ -182,7 +182,7 @@ _GROOVE = 4.0
 class Grasp:
     """How the gripper holds a component.
 
-    `height`: of the tool centre point above the table [mm]. `width`: of the part between the pads [mm]. `yaws`:
+    `height`: of the tool center point above the table [mm]. `width`: of the part between the pads [mm]. `yaws`:
     directions in which the jaws may close, in the component's frame [deg]; 0 closes along the component's x. Jaws
     are alike, so a yaw and its opposite are the same to the fingers but not to the wrist: list one of the two.
     `fixture`: `flat` faces, or grooves that are cut into the body `grip` and bring the part to the middle of the hand.
@@ -202,7 +202,7 @@ class Grasp:
 
 @record
 class ClearAperture:
-    """The disc of an optic that light passes and nothing touches: centre and diameter [mm], normal along local x."""
+    """The disc of an optic that light passes and nothing touches: center and diameter [mm], normal along local x."""
 
     center: tuple[Length, Length, Length]
     diameter: Length
@@ -210,7 +210,7 @@ class ClearAperture:
 
 @record
 class MarkerPlate:
-    """Where the marker sits [mm]: its centre in the component's frame, and the edge length of its black square."""
+    """Where the marker sits [mm]: its center in the component's frame, and the edge length of its black square."""
 
     at: tuple[Length, Length, Length]
     size: Length = 24.0

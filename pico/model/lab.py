@@ -96,7 +96,7 @@ class Camera:
     """A camera that watches the bench: where it is and looks [mm], its vertical field of view [deg], its pixels.
 
     With `robot` it rides on that robot's hand: `position` and `look_at` are then in the tool's frame, whose origin is
-    the tool centre point, z out of the hand, and whose jaws close along y. Up in the picture is +y of the frame where
+    the tool center point, z out of the hand, and whose jaws close along y. Up in the picture is +y of the frame where
     the camera looks steeper than 45 deg along z, else up along z; `roll` turns the camera about its axis, clockwise as
     it sees. `distortion`: k1, k2, p1, p2, k3 (Brown-Conrady). `noise`: sigma of a pixel [gray levels of 255]; `blur`:
     sigma of the lens [pixels].

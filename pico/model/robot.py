@@ -13,7 +13,7 @@ from pico.model.record import record
 @record
 class Fingers:
     """The gripper's fingers: thickness along the closing direction, breadth across it, how far the tips reach below
-    the tool centre point, how much they open beyond the part on each side [mm]."""
+    the tool center point, how much they open beyond the part on each side [mm]."""
 
     thickness: Length = 14.0
     breadth: Length = 22.0
@@ -89,8 +89,8 @@ TOOL_SPEED = 1000.0
 
 @record
 class Robot:
-    """An arm. Heights are of the tool centre point above the table [mm]; `speed` is a share of the joint limits, and
-    the tool centre point is never faster than `tool_speed` [mm/s], the vendor's limit unless less is asked for.
+    """An arm. Heights are of the tool center point above the table [mm]; `speed` is a share of the joint limits, and
+    the tool center point is never faster than `tool_speed` [mm/s], the vendor's limit unless less is asked for.
     `payload`: what it carries, its hand included [kg]; without, that of the model, and of a gantry no limit is known.
     """
 
@@ -118,7 +118,7 @@ class Robot:
 
     @property
     def fastest(self) -> float:
-        """The greatest speed of the tool centre point [mm/s]."""
+        """The greatest speed of the tool center point [mm/s]."""
         return TOOL_SPEED if self.tool_speed is None else self.tool_speed
 
     @property

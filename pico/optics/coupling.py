@@ -1,4 +1,4 @@
-"""What a single-mode fibre takes of a beam: what is in its mode."""
+"""What a single-mode fiber takes of a beam: what is in its mode."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pico.optics.part import Part
 
 
 def coupled(part: Part, beam: Beam) -> float:
-    """Return the share of a beam's power that a fibre takes: |<mode|beam>|^2, in closed form.
+    """Return the share of a beam's power that a fiber takes: |<mode|beam>|^2, in closed form.
 
     In front of its collimator the mode is a Gaussian of the radius `mode_radius`, its waist at the origin of the
     optical frame, along local x; any polarization is taken. Over the plane across the mode both are of the form

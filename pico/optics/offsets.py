@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 _STEP = 0.02
-"""Of a width, by which a fibre is moved beside a beam to find how much it takes."""
+"""Of a width, by which a fiber is moved beside a beam to find how much it takes."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class Falling:
 
 
 def offset(light: Light, place: Place) -> Array | None:
-    """Return by how much the strongest beam passes beside the middle of a place: to the left and up [mm]; for a fibre
+    """Return by how much the strongest beam passes beside the middle of a place: to the left and up [mm]; for a fiber
     its slopes, too [rad]; for a spatial filter in its focus, beside the pinhole. None where none comes there."""
     beam = _strongest(light, place)
     if beam is None:
@@ -104,7 +104,7 @@ def _radius(part: Part, place: Place) -> float:
 
 
 def _into_fibre(part: Part, beam: Beam) -> Falling:
-    """Return how a fibre loses a beam, by what it takes of it beside its middle and aslant: second differences."""
+    """Return how a fiber loses a beam, by what it takes of it beside its middle and aslant: second differences."""
     ahead, left, up = part.axes
     came = forward(beam, float((part.origin - beam.at) @ ahead) / float(beam.along @ ahead))
     mode = part.number("mode_radius", "mm", 1.0)

@@ -353,11 +353,12 @@ class Reader:
 
     def goal(self, node: Node, words: Sequence[str]) -> None:
         """Say what is wrong with a goal: one of the lab by its name, or a ready-made one with its parts."""
-        from pico.bench.ready.registry import known, wrong_words
+        from pico.bench.ready.registry import current, known, wrong_words
 
         goals = self.setup.lab.goals or {}
         if len(words) == 1 and words[0] in goals:
             return
+        words = current(words)
         if words[0] not in known():
             hint = did_you_mean(words[0][:40], [*goals, *known()])
             self.wrong(node, "goal", f"{self.setup.lab.name} has no goal `{' '.join(words)[:60]}`", hint)

@@ -35,7 +35,7 @@ def test_a_lens_that_a_hand_pushed_aside_is_put_back_into_the_light(minimal: Pat
         assert bench.apply().outcome == "done"
         bench.sim.nudge("lens", dy=0.6)
         heard: list[Try] = []
-        found = bench.placing.centre("lens", "camera", tell=heard.append)
+        found = bench.placing.center("lens", "camera", tell=heard.append)
         assert found.met and tuple(heard) == found.tries and len(found.tries) == 2
         assert found.slope == pytest.approx(1.0, abs=0.02)  # a focal length behind it the spot moves as the lens does
         assert found.tries[0].off == pytest.approx(0.6, abs=0.02) and found.tries[0].sent is None
@@ -51,16 +51,16 @@ def test_what_no_arm_moves_and_what_sees_nothing_is_refused(minimal: Path) -> No
             (("lens", "laser"), "does not measure a centroid"),
         ):
             with pytest.raises(PicoError, match=said):
-                bench.placing.centre(*words)
+                bench.placing.center(*words)
         with pytest.raises(PicoError, match=r"hardly moves|no light comes"):
-            bench.placing.centre("lens", "camera")  # it is in storage
+            bench.placing.center("lens", "camera")  # it is in storage
 
 
 def test_where_it_stays_dark_it_ends_and_says_so(minimal: Path) -> None:
     with pico.open(minimal) as bench:
         bench.apply()
         bench.apply(bench.single("laser", "set", emission="false"))
-        found = bench.placing.centre("lens", "camera")
+        found = bench.placing.center("lens", "camera")
         assert not found.met and "light" in found.why and len(found.tries) == 1
 
 

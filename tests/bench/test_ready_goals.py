@@ -165,9 +165,9 @@ def test_a_fibre_takes_what_two_mirrors_and_a_focus_bring(tmp_path: Path) -> Non
     parts = TWO_MIRRORS + "  coupler: {type: fiber_coupler, pose: {x: 800, y: 440, yaw: 0}}\n"
     off = {"m1": {"tip": 0.6, "tilt": -0.5}, "m2": {"tip": 0.5, "tilt": 0.6}}
     with bench(tmp_path, parts, **off) as it:
-        found = it.optimize("fibre", "coupler")
+        found = it.optimize("fiber", "coupler")
         assert found.met and beside(truth(it, tmp_path), "coupler") < 0.1, found
-        assert "more must be said" in refused(it, "fibre")
+        assert "more must be said" in refused(it, "fiber")
 
 
 INTERFEROMETER = Path(__file__).parents[2] / "labs" / "mach_zehnder"
@@ -268,3 +268,14 @@ def test_what_light_found_is_taken_back_exactly(tmp_path: Path) -> None:
         it.apply(it.single("m2", "set", tip=0.269))
         assert it.apply(it.recovery.undo_plan()).outcome == "done"
         assert it.observe().known_values["m2"] == {"tip": 0.258, "tilt": 0.1}
+
+
+@pytest.mark.parametrize(("old", "new"), [("centre", "center"), ("fibre", "fiber")])
+def test_the_words_of_earlier_versions_mean_the_goals_of_today(tmp_path: Path, old: str, new: str) -> None:
+    opened = bench(tmp_path, TWO_MIRRORS)
+    said = []
+    for word in (old, new):
+        with pytest.raises(PicoError) as refused:
+            opened.optimize(word, "m9")
+        said.append(str(refused.value))
+    assert said[0] == said[1] and old not in said[0]

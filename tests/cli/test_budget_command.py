@@ -77,11 +77,11 @@ def test_a_plan_warns_of_a_claim_that_its_goal_does_not_carry(
 
 
 def test_a_claim_that_makes_no_sense_is_told_at_its_place(shel: Path, pico: Pico) -> None:
-    wrong = CLAIM.replace("minus.cam.centroid.y", "minus.cam.centre.y").replace("179", "579").replace("2 %", "2 kg")
+    wrong = CLAIM.replace("minus.cam.centroid.y", "minus.cam.center.y").replace("179", "579").replace("2 %", "2 kg")
     edit(shel / "lab.yaml", "sim:\n", wrong)
     answer = pico("validate")
     assert answer.code == 1 and "lab.yaml:102:9" in answer.err and "p1.angle can't be 579" in answer.err
-    edit(shel / "lab.yaml", "minus.cam.centre.y", "minus.cam.centroid.y")
+    edit(shel / "lab.yaml", "minus.cam.center.y", "minus.cam.centroid.y")
     assert "`2 kg` is a mass" in words(pico("validate").err)
 
 

@@ -271,7 +271,7 @@ def test_how_far_a_part_stands_off_the_centre_of_a_slot_is_said_and_what_stays_i
 ) -> None:
     assert pico("sim", "nudge", "p1", "--dx", "9", "--dyaw", "45").code == 0
     (row,) = (line for line in pico("status").out.splitlines() if line.startswith("p1 "))
-    assert row.endswith("storage/b1, 9 mm and 45° off its centre !")
+    assert row.endswith("storage/b1, 9 mm and 45° off its center !")
     assert pico("capture", "p1").code == pico("sim", "nudge", "p1", "--dx", "-5").code == 0
     (row,) = (line for line in pico("status").out.splitlines() if line.startswith("p1 "))
     assert row.endswith("(114, 220, 45°) !")

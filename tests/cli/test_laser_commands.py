@@ -114,7 +114,7 @@ def test_nothing_else_lets_light_out(guarded: Path, pico: Pico) -> None:
     told = pico("set", "laser.shutter", "open", "-y")
     assert told.code == 7 and "error[unarmed]: laser (class 3R) stays shut: nobody has armed it" in told.err
     assert pico("do", "laser", "set", "shutter=open", "-y").code == 7
-    for words in (("measure", "cam.power"), ("optimize", "centre", "ly_150", "cam", "--yes"), ("recover", "--yes"),
+    for words in (("measure", "cam.power"), ("optimize", "center", "ly_150", "cam", "--yes"), ("recover", "--yes"),
                   ("checkout", "e1", "--yes"), ("undo", "--yes"), ("apply", "e2", "--exact", "--yes"),
                   ("do", "cam", "auto_range", "--yes"), ("resume", "--yes")):  # fmt: skip
         pico(*words)

@@ -81,7 +81,7 @@ def test_several_are_measured_in_one_run_and_darkness_has_its_reason(crossed: Pa
     [
         ("cam.image | centriod", "did you mean `centroid`?"),
         ("cam.power | centroid", "cam.power is no picture"),
-        ("cam.centre", "cam has no measurable `centre`"),
+        ("cam.center", "cam has no measurable `center`"),
         ("cam.image | mode_overlap", "`radius`"),
         ("p1", "what of p1 is to be measured?"),
         ("nobody.image", "there is no component `nobody`"),

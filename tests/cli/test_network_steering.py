@@ -33,7 +33,7 @@ def lab(shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch) -> Iterator[Pat
 
 @pytest.mark.slow
 def test_a_goal_is_sought_at_the_edge_of_a_coordinator(lab: Path, pico: Pico) -> None:
-    lines = pico("optimize", "centre", "ly_150", "cam", "--yes", "--json").out.splitlines()
+    lines = pico("optimize", "center", "ly_150", "cam", "--yes", "--json").out.splitlines()
     found = json.loads(lines[-1])
     assert found["schema"] == "pico.optimization/v1" and found["met"]
     assert any(json.loads(line)["kind"] == "operation_progress" for line in lines[:-1])

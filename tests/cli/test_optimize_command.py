@@ -42,7 +42,7 @@ def light_on_camera(folder: Path) -> None:
 
 
 def test_the_spot_is_centred_by_the_stage_and_undone(placed: Path, pico: Pico) -> None:
-    answer = pico("optimize", "centre", "ly_150", "cam", "--yes", "--plot", "c.png")
+    answer = pico("optimize", "center", "ly_150", "cam", "--yes", "--plot", "c.png")
     assert answer.code == 0 and "met in" in answer.out and "centroid_newton: 2 readings" in answer.out
     assert "to 0 within 5" in answer.out and "`pico undo` goes back" in answer.out
     found = pico("measure", "cam.centroid", "--json").data["value"]
@@ -50,7 +50,7 @@ def test_the_spot_is_centred_by_the_stage_and_undone(placed: Path, pico: Pico) -
     assert cv2.imread(str(placed / "c.png")).std() > 10
     drift = " ".join(pico("drift").out.split())
     assert "No drift: ly_150.stage_y and ly_150.stage_z stay where centred has the last word." in drift
-    assert "optimize centre ly_150 cam" in pico("runs", "list").out
+    assert "optimize center ly_150 cam" in pico("runs", "list").out
 
 
 def test_a_goal_that_the_bench_has_not_adopted_names_what_adopts_it(placed: Path, pico: Pico) -> None:
@@ -119,7 +119,7 @@ def test_what_is_not_met_is_6_and_says_why(placed: Path, pico: Pico) -> None:
     answer = pico("optimize", "centred", "--yes")
     assert answer.code == 6 and "not met" in answer.out and "the budget of 2 measurements is spent" in answer.out
     pico("set", "laser.shutter", "closed", "--yes")
-    answer = pico("optimize", "centre", "ly_150", "cam", "--yes")
+    answer = pico("optimize", "center", "ly_150", "cam", "--yes")
     assert answer.code == 6 and "no light" in " ".join(answer.out.split())
     assert "= help: laser.shutter is closed" in answer.out
     assert "not met in 0 measurements" in answer.out, "what is shut is asked before the first search"
@@ -145,12 +145,12 @@ def test_without_a_goal_they_are_listed_and_a_dry_run_moves_nothing(placed: Path
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (("centre", "ly_15", "cam"), "did you mean `ly_150`"),
+        (("center", "ly_15", "cam"), "did you mean `ly_150`"),
         (("centered",), "did you mean `centred`"),
-        (("centre", "ly_150"), "centre PART... CAMERA"),
+        (("center", "ly_150"), "center PART... CAMERA"),
         (("focus", "ly_150", "cam"), "`focus`: ly_150 has nothing to tune"),
-        (("centre", "ly_200", "cam"), "ly_200 is in storage/a4, and no light of centre ly_200 cam comes there"),
-        (("centre", "ly_150", "p1"), "p1 does not measure a centroid"),
+        (("center", "ly_200", "cam"), "ly_200 is in storage/a4, and no light of center ly_200 cam comes there"),
+        (("center", "ly_150", "p1"), "p1 does not measure a centroid"),
         (("centred", "--algorithm", "malus"), "malus takes 1 tunables, not 2"),
         (("centred", "--algorithm", "newton"), "there is no algorithm `newton`"),
         (("centred", "--offline", "61"), "a bench goes on by itself for 60 s at most, not for 61 s"),
@@ -227,7 +227,7 @@ def _started(folder: Path, *words: str) -> subprocess.Popen[str]:
 
 
 def test_ctrl_c_ends_at_the_best_point(placed: Path, pico: Pico) -> None:
-    process = _started(placed, "centre", "ly_150", "cam", "--algorithm", "nelder_mead")
+    process = _started(placed, "center", "ly_150", "cam", "--algorithm", "nelder_mead")
     process.send_signal(signal.SIGINT)
     out, _ = process.communicate(timeout=60)
     found = json.loads(out.splitlines()[-1])
@@ -282,7 +282,7 @@ def test_what_a_second_ctrl_c_leaves_set_is_told_with_what_sets_it_back(placed: 
 
 
 def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
-    process = _started(placed, "centre", "ly_150", "cam", "--algorithm", "nelder_mead")
+    process = _started(placed, "center", "ly_150", "cam", "--algorithm", "nelder_mead")
     process.kill()
     process.communicate(timeout=60)
     time.sleep(0.05)
@@ -291,7 +291,7 @@ def test_a_killed_one_is_told_and_undone(placed: Path, pico: Pico) -> None:
     known = [values[n]["value"] for n in ("stage_y", "stage_z") if values[n]["value"] is not None]
     assert all(-2 <= value <= 2 for value in known)  # that which was on its way is not known
     again = pico("resume", "--yes")
-    assert "`pico optimize centre ly_150 cam` was cut short" in " ".join((again.err + again.out).split())
+    assert "`pico optimize center ly_150 cam` was cut short" in " ".join((again.err + again.out).split())
     assert again.code == 0
     (run, *_) = [r["document"] for r in pico("runs", "list", "--json").data["runs"] if r["document"]["resumed"]]
     ended = [op["data"] for op in pico("runs", "show", run["id"], "--json").data["operations"] if "met" in op["data"]]
@@ -355,7 +355,7 @@ def test_a_script_optimizes_too(placed: Path) -> None:
     from pico.diagnostics import PicoError
 
     with pico.open(placed) as bench:
-        found = bench.optimize("centre", "ly_150", "cam")
+        found = bench.optimize("center", "ly_150", "cam")
         assert found.met and found.last and abs(found.last["cam.centroid.x"]) <= 5
         with pytest.raises(PicoError, match="has no goal `centrd`"):
             bench.optimize("centrd")

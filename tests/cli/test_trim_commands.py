@@ -162,7 +162,7 @@ def test_goals_of_lenses_in_storage_are_no_error_of_a_shipped_state(shel: Path, 
     assert answer.code == 0, answer.err
 
 
-READY = ("optimize", "centre", "ly_150", "cam", "--yes")
+READY = ("optimize", "center", "ly_150", "cam", "--yes")
 
 
 @pytest.fixture
@@ -193,7 +193,7 @@ def test_what_a_ready_made_goal_found_is_written_though_the_manifest_does_not_na
     found = stage(pico)
     answer = pico("commit", "-m", "aligned") if how == "commit" else pico("capture")
     assert answer.code == 0, answer.err
-    assert "Wrote the aligned values of centre ly_150 cam: ly_150.stage_y" in " ".join(answer.out.split())
+    assert "Wrote the aligned values of center ly_150 cam: ly_150.stage_y" in " ".join(answer.out.split())
     written = yaml.safe_load((placed / "state" / "table.yaml").read_text())["components"]["ly_150"]
     assert written["stage_y"] == pytest.approx(found, abs=0.005) and "stage_z" in written
     assert "Nothing to capture" in pico("capture").out
@@ -205,7 +205,7 @@ def test_what_a_commit_does_not_carry_of_an_alignment_it_names(placed: Path, pic
     answer = pico("commit", "-m", "planned", "--planned")
     said = " ".join(answer.err.split())
     assert answer.code == 0, answer.err
-    assert "centre ly_150 cam found ly_150.stage_y and ly_150.stage_z, and the commit does not hold" in said
+    assert "center ly_150 cam found ly_150.stage_y and ly_150.stage_z, and the commit does not hold" in said
     assert "`pico capture ly_150.stage_y ly_150.stage_z`" in said
     assert pico("set", "ly_150.stage_y=1", "--yes").code == 0
     assert "found" not in pico("commit", "-m", "set", "--capture").err, "it was set otherwise since: nothing is lost"

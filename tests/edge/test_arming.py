@@ -277,7 +277,7 @@ def test_who_leaves_the_role_arms_nothing_any_more(lab: Path) -> None:
     [
         (("null", "p2", "cam"), 2),
         (("null", "p2", "cam"), 4),
-        (("centre", "ly_150", "cam"), 2),
+        (("center", "ly_150", "cam"), 2),
         (("peak", "p2", "cam"), 2),
         (("peak", "p2", "cam"), 4),
     ],

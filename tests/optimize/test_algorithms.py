@@ -302,11 +302,11 @@ def test_likely_places_come_in_the_order_of_their_likelihood_and_without_knowled
 
 STEERED = tuple(Variable(f"m{1 + n // 2}.{('tip', 'tilt')[n % 2]}", -3.0, 3.0, 0.0) for n in range(4))
 ARMS = np.array([[2.4, 1.2], [4.97, 4.97]])
-"""What a mrad of each mirror moves at the fibre: of the offset and of the angle, in widths over which light falls."""
+"""What a mrad of each mirror moves at the fiber: of the offset and of the angle, in widths over which light falls."""
 
 
 def coupled(best: np.ndarray, noise: float, seed: int) -> Callable[[Point], Mapping[str, float]]:
-    """A fibre behind two mirrors whose arms are otherwise than nominal by 2 %, with the noise of a meter."""
+    """A fiber behind two mirrors whose arms are otherwise than nominal by 2 %, with the noise of a meter."""
     rng = np.random.default_rng(seed)
     true = ARMS * np.array([[1 + 0.02 * rng.normal()], [1.0]])
 

@@ -22,7 +22,7 @@ from pico.model.plan import Plan
 from pico.model.setup import Setup
 from pico.optimize.loop import STOPPED
 
-GOAL = ("centre", "ly_150", "cam")
+GOAL = ("center", "ly_150", "cam")
 CUT = 3
 """How often an optimization that the client knows begun asks whether it may go on before its edge is cut off."""
 

@@ -19,6 +19,10 @@ FOLDER = "pico.bench.ready.goals"
 GROUP = "pico.goals"
 
 
+RENAMED = {"centre": "center", "fibre": "fiber"}
+"""The words of earlier versions, in recipes and in history, and those of today."""
+
+
 class GoalFile(Protocol):
     """A file of FOLDER. `TAKES`: the words behind its name, and what it does; `LEAST`: how many words those are. One
     that can be made wherever parts stand says so by `ANYWHERE = True`."""
@@ -36,6 +40,11 @@ INTERFACE = Interface(
 def known() -> tuple[str, ...]:
     """Return the names of all ready-made goals, PICO's own first; imports none of them."""
     return tuple(modules(FOLDER, GROUP))
+
+
+def current(words: Sequence[str]) -> tuple[str, ...]:
+    """Return the words of a ready-made goal with the name that it has today."""
+    return (RENAMED.get(words[0], words[0]), *words[1:])
 
 
 def goal_file(name: str) -> GoalFile:

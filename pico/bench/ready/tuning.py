@@ -22,8 +22,8 @@ def tuned(asked: Asked, *usual: Sequence[str]) -> dict[str, tuple[float, float]]
 
 def _instead(asked: Asked, component: str, kinds: Sequence[str]) -> str:
     """Return what a part has that is of no use here; of one without any, that an arm may put it down by the light."""
-    if not kinds and asked.what == "centre" and asked.setup.movable(component):
-        return f"`pico optimize centre {component} {asked.words[-1]} --by-arm`: the arm puts it down anew"
+    if not kinds and asked.what == "center" and asked.setup.movable(component):
+        return f"`pico optimize center {component} {asked.words[-1]} --by-arm`: the arm puts it down anew"
     return f"it has: {', '.join(kinds) or 'none'}"
 
 

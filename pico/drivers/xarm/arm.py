@@ -104,7 +104,7 @@ class XArm:
         return await self.state()
 
     async def carry(self, mass: float, center: tuple[float, float, float]) -> None:
-        """Reckon with `mass` [kg] in the hand beside its load, its centre [mm] from the flange; a box that is told of
+        """Reckon with `mass` [kg] in the hand beside its load, its center [mm] from the flange; a box that is told of
         another load is to be started again. Raises PicoError where it can't."""
         await self._line.move("reckon with what it carries", lambda link: self._loaded(link, mass, center))
 

@@ -27,7 +27,7 @@ _TOOLS = {"none": 0, "gripper": 1, "vacuum": 2}
 
 @dataclass(frozen=True, slots=True)
 class XArmSettings:
-    """Joints in rad, lengths in mm, speeds in mm/s and rad/s, `load` in kg with its centre of mass from the flange.
+    """Joints in rad, lengths in mm, speeds in mm/s and rad/s, `load` in kg with its center of mass from the flange.
 
     `pace`: how many times faster than real the clock of an emulated arm runs.
     """

@@ -1,4 +1,4 @@
-"""How much of a spot's light a Gaussian mode would take, such as that of a fibre. The phase of the light is not seen:
+"""How much of a spot's light a Gaussian mode would take, such as that of a fiber. The phase of the light is not seen:
 it is taken to be the mode's. A tilt or a curvature makes it less, so this is the most that there can be."""
 
 from __future__ import annotations

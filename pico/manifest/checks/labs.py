@@ -240,7 +240,7 @@ def _no_grasp(robot: Robot, kind: ComponentType) -> str:
 def touches_aperture(kind: ComponentType, fingers: Fingers, yaw: float) -> bool:
     """Return whether the pads, closed at `yaw` [deg], reach into the beam's way through the clear aperture.
 
-    Pads reach `fingers.tip` below the tool centre point. The way is the aperture's disc, prolonged along local x.
+    Pads reach `fingers.tip` below the tool center point. The way is the aperture's disc, prolonged along local x.
     """
     grasp, aperture = kind.geometry.grasp, kind.geometry.clear_aperture
     if grasp is None or aperture is None:

@@ -36,7 +36,7 @@ class StatusRow:
 
     `edited`: desired differs from committed. `off`: live differs from desired by more than the tolerance. `drifted`:
     it is off and differs from committed too, so nobody asked for it. `exact`: live equals desired without any
-    deviation; `near` says what a tolerated deviation is, `aside` how far off the centre of a slot it stands. `unit`: of
+    deviation; `near` says what a tolerated deviation is, `aside` how far off the center of a slot it stands. `unit`: of
     the values. `requested`: it differs, and is light that is asked for, which no state is. `note`: missing, held,
     toppled or uncertain. `kept`: the goal that has the last word on it, if it differs and stays at its live value.
     `unread`: no device of the bench reads it, so that it is compared with nothing. `unstated`: it was set here, and
@@ -260,12 +260,12 @@ def _deviation(goal: Pose, live: Pose) -> str:
 
 
 def _aside(setup: Setup, name: str, slot: str, live: Pose) -> str:
-    centre = setup.lab.slots[slot].pose
-    if deviation(setup, name, live, None, centre) != "off":
+    center = setup.lab.slots[slot].pose
+    if deviation(setup, name, live, None, center) != "off":
         return ""
-    off = (short(live.distance(centre)), "mm"), (short(abs(angle_between(centre.yaw, live.yaw))), "°")
+    off = (short(live.distance(center)), "mm"), (short(abs(angle_between(center.yaw, live.yaw))), "°")
     words = [f"{number} {unit}".replace(" °", "°") for number, unit in off if number != "0"]
-    return f"{' and '.join(words)} off its centre"
+    return f"{' and '.join(words)} off its center"
 
 
 def refuse_unapplied(

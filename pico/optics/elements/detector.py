@@ -1,4 +1,4 @@
-"""A camera, a power meter, a fibre: a beam ends on its sensor, at the origin of its optical frame."""
+"""A camera, a power meter, a fiber: a beam ends on its sensor, at the origin of its optical frame."""
 
 from __future__ import annotations
 

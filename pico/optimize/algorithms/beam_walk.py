@@ -1,7 +1,7 @@
 """Mirrors that bring a beam through places at once, by the power behind them.
 
 The logarithm of the power is a parabola, log P = c - (X / w)^2 - (Y / w)^2 - (U / v)^2 - (V / v)^2, in the offsets X, Y
-at a near place (or of a fibre) and U, V at a far one (or the angles). How far each tunable moves the beam is known
+at a near place (or of a fiber) and U, V at a far one (or the angles). How far each tunable moves the beam is known
 nominally, so that only the middle and c are left to be fitted, by Gauss and Newton: five numbers for two mirrors.
 """
 

@@ -15,7 +15,7 @@ from pico.recipes.registry import Given, Kind
 from pico.recipes.scope import Scope
 
 KIND = Kind(
-    "light is brought to a goal", "optimize: centre ly_150 cam",
+    "light is brought to a goal", "optimize: center ly_150 cam",
     keys={"required": "whether the recipe fails where it is not met (true)"}, within=True,
 )  # fmt: skip
 

@@ -1,4 +1,4 @@
-"""The power that leaves the far end of a fibre [mW]: of each beam what is in the fibre's mode."""
+"""The power that leaves the far end of a fiber [mW]: of each beam what is in the fiber's mode."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from pico.diagnostics import error
 from pico.model.setup import Setup
 
 SPECK = 1e-6
-"""The share of the light on a fibre below which its shape does not matter."""
+"""The share of the light on a fiber below which its shape does not matter."""
 
 
 def measures(setup: Setup, component: str, measurable: str) -> bool:
-    """Whether it is the power of a fibre."""
+    """Whether it is the power of a fiber."""
     return detects(setup, component, measurable, "power") and "mode_radius" in setup.type_of(component).parameters
 
 

@@ -1,4 +1,4 @@
-"""As much light in a fibre as can be: by the two mirrors before it, and by its focus where a lens there moves along."""
+"""As much light in a fiber as can be: by the two mirrors before it, and by its focus where a lens there moves along."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ LEAST = 1
 
 
 def make(asked: Asked) -> Ready:
-    """Return the goal of a fibre; the mirrors and the lens before it are found where no parts are named."""
+    """Return the goal of a fiber; the mirrors and the lens before it are found where no parts are named."""
     coupler = asked.part(asked.words[-1])
     light = asked.light_of(coupler)
     if len(asked.words) > 1:
