@@ -24,7 +24,7 @@ NoOpen = Annotated[bool, typer.Option("--no-open", help="Only tell the address; 
 def gui(context: typer.Context, port: Port = 0, no_open: NoOpen = False, fidelity: Fidelity = None) -> None:
     """Open the lab of this folder in the browser, until Ctrl-C.
 
-    The page is served to this machine alone, and its address lets in once. It works on this folder; commands in other
+    The page is served to this machine alone, and its link works once. It works on this folder; commands in other
     terminals work on the same bench meanwhile. Exit code 5: somebody serves this bench already.
 
     Examples:

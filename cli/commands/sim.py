@@ -150,16 +150,16 @@ def upset(
         list[str] | None, typer.Argument(metavar="WHAT=BY", help="For example up=0.1 loss=20%.", show_default=False)
     ] = None,
     clear: Annotated[
-        bool, typer.Option("--clear", help="Take back what befell it and its slips; of all where none is named.")
+        bool, typer.Option("--clear", help="Undo its disturbances and slips; those of all parts if none is named.")
     ] = False,
 ) -> None:
-    """Let something befall a part that no camera over the bench sees; alone, show what is hidden.
+    """Disturb a part in a way that no overhead camera sees; without arguments, show what is hidden.
 
     Displaced along its own axes: ahead, left, up [mm]; turned about them: roll, pitch, yaw [deg]; dirty: loss, a share
     of its light. Of a laser power; of a lens focal_length [mm]; of a wave plate retardance [waves]; of a polarizer
     leak, a share of what it should stop; of a detector gain, and dark, what it reads without light. A power or a gain
     is a factor, or a change in percent. optic: the type whose optic stands in its mount instead of its own. It adds to
-    what befell it before; a focal length and an optic replace that.
+    earlier disturbances; a focal length and an optic replace them.
 
     Examples:
       pico sim upset lx_100 up=0.08
@@ -184,7 +184,7 @@ def _clear(context: typer.Context, name: str | None, by: Sequence[str]) -> None:
     from pico.diagnostics import PicoError, error
 
     if by:
-        hint = "`pico sim upset NAME --clear` takes back all that befell a part"
+        hint = "`pico sim upset NAME --clear` undoes all disturbances of a part"
         raise PicoError(error("usage", "--clear takes no WHAT=BY", hint=hint))
     session = Session.of(context)
     had = session.bench().sim.clear(name)

@@ -48,7 +48,7 @@ def swap(
     auto_approve: Yes = False,
     dry_run: DryRun = False,
 ) -> int:
-    """Tell that a part has another specimen in its housing.
+    """Record that the optic in a mount was replaced.
 
     The bench's own Lab and lab.yaml take it over; nothing moves. Goals whose light comes through it are stale from
     then on, until they are met again. Swap back the same way. Exit code 1 where somebody says no, 5 where the bench

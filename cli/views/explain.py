@@ -88,7 +88,9 @@ def _full(step: ExplainedOperation) -> list[str]:
     lines += [part for words in _waits(step.waits_for, True) for part in _line("after", words)]
     lines += [part for words in _waits(step.holds_up, False) for part in _line("before", words)]
     spare = (
-        "on the critical path: if it is late, all is late" if step.critical else f"may be {seconds(step.spare)} late"
+        "on the critical path: a delay here delays the whole run"
+        if step.critical
+        else f"may be {seconds(step.spare)} late"
     )
     when = f"from {seconds(op.start)} to {seconds(op.start + op.seconds)}, takes {seconds(op.seconds)}; {spare}"
     return [*lines, *_line("when", when)]

@@ -30,7 +30,7 @@ def text(
         stood = "found" if one.get("last") else "not found"
         lines += wrap(f"{one['goal']} first: {stood} after {count(one['measurements'], 'measurement')}", "  ")
     if not found.met:
-        lines += wrap(f"It ended because {found.why}.", "  ")
+        lines += wrap(f"Stopped: {found.why}.", "  ")
     lines += _table(found, chosen, setup, began)
     if said := solved({"solution": found.solution, "last": found.last}):
         lines += wrap(f"It was left at {said}.", "  ")

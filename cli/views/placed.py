@@ -32,7 +32,7 @@ def text(found: Placed) -> str:
     """Return the outcome in a line, the tries, and how to go back."""
     times, said = len(found.tries) - 1, paint("green", "met") if found.met else paint("yellow", "not met")
     lines = wrap(f"center {found.component} {found.detector}: {said}, put down {count(times, 'time')}", "  ")
-    lines += wrap(f"It ended because {found.why}.", "  ") if not found.met else []
+    lines += wrap(f"Stopped: {found.why}.", "  ") if not found.met else []
     rows = [[paint("dim", cell) for cell in ("sent to", "off by the light", "run")]]
     seen = [_mm(t.off) or ("not measured" if t.why == found.why else t.why) for t in found.tries]
     rows += [[_mm(t.sent) or "as it stood", off, t.run] for t, off in zip(found.tries, seen, strict=True)]

@@ -79,7 +79,7 @@ def proof(standing: Standing, *, left: bool = False) -> list[str]:
 
 def _said(standing: Standing) -> list[str]:
     if standing.verdict in ("inherited", "planned"):
-        return ["Nobody has seen this state on a bench: `pico apply` and `pico commit` prove it."]
+        return ["This state has not been realized on a bench yet: `pico apply`, then `pico commit`."]
     if standing.verdict == "unknown":
         return []
     what = (

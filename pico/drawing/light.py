@@ -81,7 +81,7 @@ def _strip(light: Light, source: str, width: int) -> NDArray[np.uint8]:
         u, v = place(length, radius)
         return round(u), round(v)
 
-    write(panel, f"radius of {source} [mm] on its brightest way", (left, 1.6 * size), size, _INK, weight=600)
+    write(panel, f"beam radius of {source} along its main path [mm]", (left, 1.6 * size), size, _INK, weight=600)
     for part in (0.0, 0.5, 1.0):
         u, v = pixel(0.0, part * most)
         cv2.line(panel, (u, v), (round(right), v), _RULE, 1)

@@ -100,7 +100,7 @@ def metered(link: Questions, entry: DeviceEntry, wavelength: float | None) -> Re
     if wavelength is not None and entry.settings.get("wavelength", True):
         found = corrected(link, entry, wavelength)
         if found.value is None:
-            return unknown("W", "wavelength", found.raw, f"it does not tell its wavelength: {found.why}")
+            return unknown("W", "wavelength", found.raw, f"its wavelength can't be read: {found.why}")
         settings["wavelength"] = found.value
     raw = link.ask("MEAS:POW?")
     try:

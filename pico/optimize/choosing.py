@@ -32,7 +32,7 @@ def choose(tuned: Sequence[Tuned], kernels: Sequence[str], aim: Aim, *, known: b
     if aim == "reach" and len(kernels) >= len(tuned):
         return "centroid_newton", f"{len(kernels)} readings for {len(tuned)} tunables: Newton's method"
     if aim == "maximize" and (known or len(tuned) <= 4):
-        walk = "how its tunables move the light is known from where parts stand: only its middle is fitted"
+        walk = "the steering matrix is taken from the layout; only the optimum is fitted"
         climb = "as much of something as can be: a parabola through its logarithm, axis by axis"
         return ("beam_walk", walk) if known else ("peak", climb)
     many = f"{len(tuned)} tunables: conjugate directions"

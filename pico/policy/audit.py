@@ -176,7 +176,7 @@ def _where_searched(found: Finding, where: str) -> Finding:
     """Return a finding that says in which direction of a search it is."""
     if not where:
         return found
-    text = f"a search comes there, with {where}: narrow its bounds, or end the beam in a block"
+    text = f"the search can reach this at {where}: narrow its bounds, or end the beam in a block"
     return replace(found, hint="; ".join(words for words in (text, found.hint) if words))
 
 

@@ -91,7 +91,7 @@ def _wrong(document: Run, name: str) -> str:
     if document.folded or name.endswith(FOLD):
         ids = {one.id for one in members(document)} - {name}
         if len(ids) < 2 or len(ids) != len(document.folded):
-            return "it does not tell each of the runs that are folded into it"
+            return "it does not list each of the runs that are folded into it"
     named = [f.sha256 for f in document.files.values()] + [a.sha256 for a in document.artifacts]
     if not all(_HASH.fullmatch(sha256) for sha256 in named):
         return "it names a file by what is no SHA-256"

@@ -248,7 +248,7 @@ def test_a_search_is_refused_in_a_corner_that_no_tunable_reaches_alone_and_the_d
     assert not search(p1_angle=(45, 65)) and not search(p2_angle=(115, 135))
     (found,) = search(p1_angle=(45, 65), p2_angle=(115, 135))
     assert "p2 → leaves the table" in found.summary
-    assert "a search comes there, with p1.angle at 65, p2.angle at 115" in found.hint
+    assert "the search can reach this at p1.angle at 65, p2.angle at 115" in found.hint
 
 
 def test_what_an_optimization_may_set_counts_over_all_of_its_bounds() -> None:

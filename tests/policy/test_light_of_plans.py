@@ -281,7 +281,7 @@ def test_a_finding_of_a_search_alone_says_where() -> None:
     judged = Judge(finding(hint="block it"), knows=lambda lit: lit.values["laser"]["power"] == 2.5)
     found, _ = audit_of(SETUP, plan(search({"laser.power": (1, 4)})), observed(laser={**LIT, "power": 4.0}), judged)
     (one,) = found.findings
-    assert one.hint.startswith("a search comes there, with laser.power at 2.5: narrow its bounds")
+    assert one.hint.startswith("the search can reach this at laser.power at 2.5: narrow its bounds")
     assert one.hint.endswith("; block it")
 
 

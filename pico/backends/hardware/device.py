@@ -414,5 +414,5 @@ async def _ready(arm: Arm) -> None:
 
 
 def _no_world() -> NoReturn:
-    text = "the table of this bench is changed by hands, and not by commands"
-    raise PicoError(error("no-world", text, hint="`--backend sim` has a simulated one"))
+    text = "this command works only on the simulator"
+    raise PicoError(error("no-world", text, hint="`pico --bench sim ...` changes the simulated bench"))
