@@ -46,7 +46,8 @@ class Measurement:
     (the calibration of a meter); None: all of it. `settings`: what it depends on, such as exposure, gain and
     background. `time` on the bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of
     what a device gave.
-    `assured`: what was seen to hold; `not_assured`: what was not, and why.
+    `assured`: what was seen to hold; `not_assured`: what was not, and why. `remark`: what was left out of it, such as
+    the defective pixels of a camera; empty if nothing was.
     """
 
     schema: str = FORMAT.schema
@@ -66,6 +67,7 @@ class Measurement:
     kernel_version: str | None = None
     assured: tuple[Condition, ...] = ()
     not_assured: Mapping[Condition, str] = field(default_factory=dict)
+    remark: str = ""
 
     @property
     def address(self) -> str:

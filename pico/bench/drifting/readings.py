@@ -33,7 +33,7 @@ class Readings:
 
     def dark(self, wanted: Quantity) -> bool:
         """Return whether a quantity was not read for want of light."""
-        from pico.kernels.spot import DARK as NO_LIGHT
+        from pico.kernels.start import DARK as NO_LIGHT
 
         return self.why(wanted) == NO_LIGHT
 

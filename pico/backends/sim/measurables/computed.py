@@ -42,5 +42,5 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     return replace(
         base, array=base.array if measurable == kernel else None,
         value=found.value, sigma=found.sigma, kernel=kernel, kernel_version=version(pipeline),
-        unknown=found.unknown, unit=found.unit,
+        unknown=found.unknown, unit=found.unit, remark=found.remark,
     )  # fmt: skip

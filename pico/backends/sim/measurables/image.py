@@ -22,7 +22,7 @@ def measures(setup: Setup, component: str, measurable: str) -> bool:
 
 def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the frame, with its brightest pixel (`peak`) and its `mean` [counts]."""
-    from pico.kernels.frame import full_pixels
+    from pico.kernels.frame import saturated
     from pico.optics.beam_table import decibel
     from pico.optics.instruments import camera_frame, sensor_of
     from pico.optics.light import out_of_step
@@ -45,7 +45,6 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         number=round(table.world.clock * 1000),
     )  # fmt: skip
     sensor = sensor_of(part)
-    full, level = full_pixels(counts, sensor.full_scale)
     gain = decibel(part.values)
     return Reading(
         {"peak": float(counts.max()), "mean": float(counts.mean())},
@@ -55,5 +54,5 @@ def read(table: Table, component: str, measurable: str) -> Reading:
             "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
             "electrons_per_count": sensor.electrons_per_count(gain),
         },
-        saturated=f"{full} of {counts.size} pixels read {level:g}" if full else "",
+        saturated=saturated(counts, sensor.full_scale),
     )  # fmt: skip
