@@ -147,14 +147,15 @@ class Frame:
 
 @dataclass(frozen=True)
 class Readings:
-    """Powers that were read one after the other, in any one unit: `values`, one standard deviation each, and `angles`
-    [deg] or `names` of the settings that they were read at."""
+    """Numbers that were read one after the other, in any one unit: `values`, one standard deviation each, and `angles`
+    [deg], `names` of the settings or `places` along a beam [mm] that they were read at."""
 
     values: tuple[float, ...]
     sigma: tuple[float, ...]
     names: tuple[str, ...] = ()
     angles: tuple[float, ...] = ()
+    places: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if any(len(row) not in (0, len(self.values)) for row in (self.names, self.angles, self.sigma)):
-            raise ValueError("readings have as many sigmas, names and angles as values")
+        if any(len(row) not in (0, len(self.values)) for row in (self.names, self.angles, self.places, self.sigma)):
+            raise ValueError("readings have as many sigmas, names, angles and places as values")

@@ -100,7 +100,8 @@ def run(pipeline: Pipeline, given: Given) -> Result:
         made = module.apply(given, step.parameters)
         if isinstance(made, Result):
             made = _finite(made)
-            remark = given.remark if isinstance(given, Frame) and "defects" in vars(given) and not made.unknown else ""
+            masked = given.remark if isinstance(given, Frame) and "defects" in vars(given) and not made.unknown else ""
+            remark = "; ".join(words for words in (made.remark, masked) if words)
             declared = module.KERNEL
             return replace(made, units=declared.units, kernel=step.name, version=declared.version, remark=remark)
         given = made
