@@ -58,7 +58,6 @@ def measure(
 
     Examples:
       pico measure cam.centroid
-      pico measure fc.power pm.power
       pico measure cam.image --picture spot.png
       pico measure 'cam.image | background | mode_overlap(radius=450)'
       pico measure --image spot.png --pixel-size 5.2 d4sigma gaussian_fit

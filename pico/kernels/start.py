@@ -10,7 +10,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.kernels.background import Plane, binned, binning, corners, plane
+from pico.kernels.background import Plane, binned, binning, corners, outside, plane, with_misfit
 from pico.kernels.frame import Frame
 from pico.kernels.moments import Array, finer, moments_of, sums
 from pico.kernels.stripes import Stripes, stripes
@@ -25,6 +25,8 @@ FINE = 48.0
 """Width (D4sigma) [px] below which a beam is found in the pixels themselves, not in means of blocks."""
 _HALF, _FAR_SMALLER = 0.5, 3.0
 """The share of the frame beyond which a bright part may be one of the background; how much smaller a beam then is."""
+_RIM = 0.15
+"""The share of each side of the frame that is its rim."""
 DARK = "there is no light above the background"
 
 
@@ -55,6 +57,28 @@ def found(frame: Frame) -> Start | str:
         return f"{start}, but for {frame.remark}" if frame.remark else start
     beside = stripes(start.signal, start.background, start.moments)
     return start if beside is None else _started(frame, start.signal - beside.over(), beside)
+
+
+def is_dark(why: str) -> bool:
+    """Whether a spot is unknown for want of light."""
+    return why.startswith(DARK)
+
+
+def without_light(frame: Frame) -> tuple[float, float]:
+    """Return the sum of a picture without a spot and its standard deviation [count]: over the middle of the frame,
+    above a plane through the rim around it."""
+    by = binning(frame.pixels.shape)
+    coarse = binned(frame.signal, by)
+    h, w = coarse.shape
+    top, left = round(_RIM * h), round(_RIM * w)
+    box = (top, h - top, left, w - left)
+    rim = outside((h, w), box)
+    behind = with_misfit(plane(coarse, rim, by, frame.dark_variance), coarse, rim, by)
+    inside = slice(top, h - top), slice(left, w - left)
+    above = coarse[inside] - behind.over((h, w), *inside)
+    follow = above.size * by**2 * np.array([1.0, 0.0, 0.0])  # the middle of the middle is that of the plane
+    variance = behind.variance * above.size * by**2 + follow @ behind.covariance @ follow
+    return float(above.sum(dtype=np.float64)) * by**2, math.sqrt(variance)
 
 
 def _started(frame: Frame, signal: NDArray[np.float32], beside: Stripes | None) -> Start | str:

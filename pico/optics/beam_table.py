@@ -15,10 +15,11 @@ from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
-from pico.optics.ends import stray
+from pico.optics.ends import counted, stray
+from pico.optics.following import Crossing
 from pico.optics.gaussian import front
 from pico.optics.geometry import Event
-from pico.optics.light import Crossing, Light, irradiance, out_of_step
+from pico.optics.light import Light, irradiance, out_of_step
 from pico.optics.part import Part
 
 CLIPPED = 0.01
@@ -104,8 +105,8 @@ def _incidence(beam: Beam, part: Part | None) -> float:
 
 
 def troubles(setup: Setup, light: Light) -> tuple[Diagnostic, ...]:
-    """Return a warning for each thing that is wrong with the light."""
-    return tuple(_troubles(setup, light))
+    """Return a warning for each thing that is wrong with the light; how often, if several beams do the same."""
+    return counted(_troubles(setup, light))
 
 
 def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
@@ -136,9 +137,12 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
             text, near = f"no light comes to {name}", _passing(light, part)
             hint = "move it into a beam, or a beam onto it"
             yield warning("dark", f"{text}: {near}" if near else text, hint=hint, address=name)
-    for source in light.endless:
-        yield warning("endless", f"the beam of {source} goes round and round, and is not followed to its end",
-                      hint="turn a mirror, or end it in a beam block", address=source)  # fmt: skip
+    for source, reached in light.cut.items():
+        count = sum(c.beam.source == source for c in light.crossings)
+        detectors = sorted(n for n in reached if light.parts[n].kind.optics.element == "detector")
+        text = f"the beam of {source} goes round and round, and is not followed beyond {count} stretches"
+        text += f": what {', '.join(detectors)} would read is unknown" if detectors else ""
+        yield warning("endless", text, hint="turn a mirror, or end it in a beam block", address=source)
 
 
 def _passing(light: Light, part: Part) -> str:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
-from pico.optics.axis import Meeting, beams
+from pico.optics.axis import Axis, Meeting, beams
 
 
 def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tuple[Diagnostic, ...]:
@@ -21,8 +23,22 @@ def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tup
         for axis in beams(setup, poses, values)
         if values.get(axis.source, {}).get("emission") is True and axis.source not in but
     )
-    found = (one for axis in on for end in axis.meetings for one in stray(setup, axis.source, end))
-    return tuple(dict.fromkeys(found))  # two arms of an interferometer send back to one place
+    found = (one for axis in on for one in _of_axis(setup, axis))
+    return counted(found)  # two arms of an interferometer send back to one place
+
+
+def _of_axis(setup: Setup, axis: Axis) -> Iterator[Diagnostic]:
+    for end in axis.meetings:
+        yield from stray(setup, axis.source, end)
+    if axis.endless:
+        text = f"the beam of {axis.source} goes round and round, and is not followed beyond {len(axis.legs)} stretches"
+        yield warning("endless", text, hint="turn a mirror, or end it in a beam block", address=axis.source)
+
+
+def counted(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return each diagnostic once, with how many beams it is true of."""
+    count = Counter(found)
+    return tuple(one if n == 1 else replace(one, summary=f"{one.summary} ({n} beams)") for one, n in count.items())
 
 
 def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.optics.beam import Beam, forward, level
-from pico.optics.coupling import coupled
 from pico.optics.part import Part, within
+from pico.optics.sensing.coupling import coupled
 
 if TYPE_CHECKING:
     from pico.optics.light import Light

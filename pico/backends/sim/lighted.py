@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.measured import Reading
 from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
 from pico.backends.sim.world import WorldBody
@@ -29,6 +30,12 @@ def alone(arrivals: tuple[Arrival, ...]) -> str:
     sources = [a.beam.source for a in arrivals]
     twice = next((source for source in sources if sources.count(source) > 1), "")
     return f"several beams of {twice} come there at once, and how they interfere in it is not modelled" if twice else ""
+
+
+def uncertain(light: Light, component: str) -> Reading | None:
+    """Return the reading of a detector to which light may come that was not followed to its end; None for any other."""
+    why = light.unfollowed(component)
+    return Reading(None, unknown=why, reason="cut-trace") if why else None
 
 
 def light_on(table: Table) -> Light:

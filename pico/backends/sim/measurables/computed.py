@@ -36,6 +36,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     if measurer is None:
         raise Failed(not_simulated(component, pipeline.source))
     base = measurer.read(table, component, pipeline.source)
+    if base.array is None and base.unknown:
+        return replace(base, kernel=kernel, kernel_version=version(pipeline))
     if base.array is None:
         raise Failed(error("no-array", f"{component}.{pipeline.source} gives nothing for kernels", address=component))
     found = computed(pipeline, base.array, base.settings)
