@@ -15,11 +15,12 @@ from pico.model.shown.html import number, table
 
 FORMAT = Format("pico.measurement")
 
-Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated", "wavelength"]
+Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated", "wavelength", "in range"]
 """What may be assured of a measurement; `shutter` and `illumination` where the measurable declares what it needs,
-`wavelength` of a meter that is told the wavelength of the light."""
+`wavelength` of a meter that is told the wavelength of the light, `in range` of light for whose wavelength all parts on
+its way to the detector are made."""
 CONDITIONS: tuple[Condition, ...] = get_args(Condition)
-_LATER: frozenset[Condition] = frozenset({"wavelength"})
+_LATER: frozenset[Condition] = frozenset({"wavelength", "in range"})
 """Conditions that earlier records do not have, and a simulated meter need not: that only one of two measurements has
 them does not keep these from being compared."""
 PEEKED = "it was only peeked at, without the lease"

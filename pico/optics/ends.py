@@ -11,6 +11,7 @@ from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.optics.axis import Axis, Meeting, beams
+from pico.optics.color.ranges import out_of_range
 
 
 def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tuple[Diagnostic, ...]:
@@ -23,7 +24,7 @@ def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tup
         for axis in beams(setup, poses, values)
         if values.get(axis.source, {}).get("emission") is True and axis.source not in but
     )
-    found = (one for axis in on for one in _of_axis(setup, axis))
+    found = (one for axis in on for one in (*_of_axis(setup, axis), *out_of_range(setup, axis, values)))
     return counted(found)  # two arms of an interferometer send back to one place
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import Reading
-from pico.backends.sim.lighted import detects, light_on, room_light, uncertain
+from pico.backends.sim.lighted import detects, light_on, room_light, sightless, uncertain
 from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
@@ -31,8 +31,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     arrivals, part = light.at(component), light.parts.get(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
-    if cut := uncertain(light, component):
-        return cut
+    if none := uncertain(light, component) or sightless(light, component):
+        return none
     dim = SPECK * sum(a.power for a in arrivals)
     if unknown := next((a.beam for a in arrivals if a.beam.unknown and a.power > dim), None):
         text = f"what {component} would see of {unknown.source} is not known: {unknown.unknown}"
