@@ -174,8 +174,10 @@ class Readers:
             readout = unknown("W", "wavelength", why=exc.diagnostics[0].summary)
         if own is not None and before is not None and before.status == "known" and before.value is not None:
             await own.set(before.value)  # a measurement leaves the set-points of the lab as they were
-        responds = self._setup.type_of(component).tunables.get("wavelength")
-        return power_reading(readout, color, metered.conversion, responds)
+        kind = self._setup.type_of(component)
+        responds, sensor = kind.tunables.get("wavelength"), kind.parameters.get("sensor")
+        material = "" if sensor is None else str(sensor.value)
+        return power_reading(readout, color, metered.conversion, responds, material)
 
     async def _computed(self, component: str, name: str) -> Reading:
         kernel = self._kernel(component, name)

@@ -26,6 +26,8 @@ from pico.model.arming import CLASSES, LaserClass, within
 
 VISIBLE, KNOWN = (400.0, 700.0), (180.0, 10600.0)
 """Wavelengths that an eye turns away from, and those for which a limit is known here [nm]."""
+EDGES = (302.5, 315.0, 400.0, 450.0, 500.0, 700.0, 1050.0, 1150.0, 1200.0, 1400.0, 4000.0)
+"""Wavelengths at which the limits change their law: of a range the most dangerous one is one of these, or an end."""
 _CLASS_1, _CLASS_2, _VISIBLE_3R, _CLASS_3B = 0.39, 1.0, 5.0, 500.0  # mW
 _ULTRAVIOLET = 30 * 7.85e-7 / 3e4 * 1e3
 """30 J/m2 through an aperture of 1 mm in 30000 s [mW]."""
