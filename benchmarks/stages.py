@@ -32,7 +32,7 @@ from pico.backends.sim.store import load_world
 from pico.model.setup import Setup
 from pico.optics.environment import in_the_world
 from pico.optics.light import light_of
-from pico.optics.sensing.coupling import coupled
+from pico.optics.offsets import coupled
 from pico.places.bench import BenchPlace
 
 MOST, SURE, TAKEN = 60, 0.95, 0.9

@@ -61,7 +61,7 @@ def measure(
       pico measure cam.image --picture spot.png
       pico measure 'cam.image | background | mode_overlap(radius=450)'
       pico measure --image spot.png --pixel-size 5.2 d4sigma gaussian_fit
-      pico measure --image 'scan/z-*mm.tif' --pixel-size 5.2 'd4sigma | m2(wavelength=632.8)'
+      pico measure --image 'z*.tif' --pixel-size 5 'd4sigma | m2(wavelength=633)'
     """
     from pico.diagnostics import ExitCode, PicoError, error
 

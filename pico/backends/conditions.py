@@ -34,7 +34,7 @@ def conditions(
 
 def _out_of_range(setup: Setup, seen: Observation, component: str) -> Sequence[str]:
     """Return which parts on the way of light to a detector are not made for its wavelength, in words."""
-    from pico.optics.color.ranges import doubts
+    from pico.optics.ends import doubts
 
     parts = seen.components.items()
     poses = {n: p.pose for n, p in parts if p.pose is not None and n in setup.lab.inventory and p.presence == "seen"}

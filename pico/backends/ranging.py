@@ -60,11 +60,12 @@ def taken(exposure: float, pixels: NDArray[Any], black: float, full: float) -> T
     else its brightest pixel, defective ones left out."""
     import numpy as np
 
+    from pico.kernels.defects import median
     from pico.kernels.frame import Frame
 
     frame = Frame(pixels, full_scale=full, black_level=black)
     if frame.saturated:
         return Taken(exposure, 1.0)
     some = frame.signal[::4, ::4]
-    noise = _NOISE * float(np.median(np.abs(some - np.median(some))))
+    noise = _NOISE * float(median(np.abs(some - median(some))))
     return Taken(exposure, min(max(0.0, float(frame.signal.max()) - noise) / (full - black), _MOST_UNSATURATED))

@@ -123,7 +123,7 @@ class Nominal:
             found = _spot(strong) if all(not a.beam.unknown for a in strong) else None
             return None if found is None else {k: v - factor.get(k, 0.0) for k, v in found.items()}
         if "mode_radius" in self.setup.type_of(component).parameters:
-            from pico.optics.sensing.coupling import coupled
+            from pico.optics.offsets import coupled
 
             total = sum(coupled(a.part, a.beam) * a.power for a in strong)
         return {measurable: total * gain * math.exp(-factor["loss"])}

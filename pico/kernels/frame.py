@@ -98,9 +98,9 @@ class Frame:
         light of 3 px or more does."""
         import numpy as np
 
-        from pico.kernels.defects import defects
+        from pico.kernels.defects import defects, median
 
-        dark = self.black_level if self.dark is None else float(np.median(self.dark[::8, ::8]))
+        dark = self.black_level if self.dark is None else float(median(self.dark[::8, ::8]))
         rows, columns = defects(self.pixels, self.dark_variance, self.electrons_per_count, dark)
         full = np.nonzero(self.pixels >= self.full_scale) if self.pixels.max() >= self.full_scale else None
         if full is not None:

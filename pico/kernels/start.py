@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.kernels.background import Plane, binned, binning, corners, outside, plane, with_misfit
+from pico.kernels.defects import median
 from pico.kernels.frame import Frame
 from pico.kernels.moments import Array, finer, moments_of, sums
 from pico.kernels.stripes import Stripes, stripes
@@ -101,9 +102,9 @@ def _started(frame: Frame, signal: NDArray[np.float32], beside: Stripes | None) 
 def _without_stripes(above: NDArray[np.float32], moments: Array | None) -> Array | None:
     """The moments of the brightest place once columns and rows are brought to one level, if it is far smaller than that
     of `moments`, which may be a half of a sensor with two taps; `moments` otherwise."""
-    level = above - np.median(above, axis=0).astype(np.float32)
-    level -= np.median(level, axis=1).astype(np.float32)[:, None]
-    there = _bright(level, 1.4826 * float(np.median(np.abs(level))))
+    level = above - median(above, 0)
+    level -= median(level, 1)[:, None]
+    there = _bright(level, 1.4826 * float(median(np.abs(level))))
     if there is None or (moments is not None and (there[2:4] > moments[2:4] / _FAR_SMALLER**2).all()):
         return moments
     return there

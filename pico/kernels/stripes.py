@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pico.kernels.background import Plane
+from pico.kernels.defects import median
 
 Array = NDArray[np.float64]
 _REACHES = (1.5, 1.25, 1.0)
@@ -69,7 +70,7 @@ def _offsets(
         middle = (first + last) / 2 / along - 0.5
         means[i] -= behind.level + behind.slopes[axis] * places + behind.slopes[1 - axis] * middle
         means[i] -= other[first:last].mean() if axis == 1 else 0.0
-    found = np.median(means, axis=0)
+    found = median(means, 0)
     found -= np.polyval(np.polyfit(places, found, 1), places)  # the plane has level and slope
     # Of neighbors: the deviations from a median of few groups are too small.
     apart = np.diff(means, axis=0)

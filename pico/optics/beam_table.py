@@ -11,13 +11,13 @@ import numpy as np
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.materials.glass import DESIGN
+from pico.model.materials.ranges import unfit
 from pico.model.materials.response import BLIND, quantum_efficiency
 from pico.model.observation import slot_at
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
-from pico.optics.color.ranges import unfit
 from pico.optics.ends import counted, stray
 from pico.optics.following import Crossing
 from pico.optics.gaussian import front

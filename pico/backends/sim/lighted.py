@@ -44,7 +44,7 @@ def uncertain(light: Light, component: str) -> Reading | None:
 
 def sightless(light: Light, component: str) -> Reading | None:
     """Return the reading of a detector that is blind to light which comes to it; None for any other."""
-    from pico.optics.color.ranges import sees_nothing
+    from pico.model.materials.ranges import sees_nothing
 
     arrivals, part = light.at(component), light.parts[component]
     total = sum(a.power for a in arrivals)

@@ -24,7 +24,7 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the power with its standard deviation; unknown where the shape of a beam is."""
     import numpy as np
 
-    from pico.optics.sensing.coupling import coupled
+    from pico.optics.offsets import coupled
 
     light = light_on(table)
     part, arrivals = light.parts.get(component), light.at(component)

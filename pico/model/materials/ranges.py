@@ -1,18 +1,17 @@
-"""Light that comes to a part for which its numbers do not hold, by wavelength."""
+"""Between which wavelengths the numbers of a part hold, and what is said of light outside."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.catalog import ComponentType
 from pico.model.materials.glass import GLASSES
 from pico.model.materials.response import blind
-from pico.model.pose import Pose, short
+from pico.model.pose import short
 from pico.model.setup import Setup
-from pico.optics.axis import Axis, Values, beams
 
 _SLACK = 0.5
 """By how much a wavelength may lie outside [nm]: a range is given in whole numbers."""
@@ -57,14 +56,6 @@ def wavelength_of(setup: Setup, source: str, values: Mapping[str, Any]) -> float
     return setup.type_of(source).number("wavelength", "nm")
 
 
-def out_of_range(setup: Setup, axis: Axis, values: Values) -> Iterator[Diagnostic]:
-    """Yield a warning for each part that a beam comes to and whose numbers do not hold for it."""
-    wavelength = wavelength_of(setup, axis.source, values.get(axis.source, {}))
-    if wavelength is not None:
-        for name in dict.fromkeys(m.component for m in axis.meetings if m.component not in ("", axis.source)):
-            yield from unfit(setup.type_of(name), name, axis.source, wavelength)
-
-
 def unfit(kind: ComponentType, name: str, source: str, wavelength: float) -> Iterator[Diagnostic]:
     """Yield a warning if a part is not made for the light of a source [nm] that comes to it."""
     if why := sees_nothing(kind, wavelength):
@@ -73,18 +64,3 @@ def unfit(kind: ComponentType, name: str, source: str, wavelength: float) -> Ite
     elif why := outside(kind, wavelength):
         hint = f"take a part for {short(wavelength)} nm, or give its own range: `parameters: {{longest: ...}}`"
         yield warning("outside-range", f"{name} is {why} ({source})", hint=hint, address=name)
-
-
-def doubts(setup: Setup, poses: Mapping[str, Pose], values: Values, detector: str) -> Sequence[str]:
-    """Return which parts on the ways of light to a detector, itself included, are not made for it, in words. Sources
-    that are known to be off do not count."""
-    found: dict[str, None] = {}
-    for axis in beams(setup, poses, values):
-        wavelength = wavelength_of(setup, axis.source, values.get(axis.source, {}))
-        if wavelength is None or values.get(axis.source, {}).get("emission") is False:
-            continue
-        for way in axis.ways(detector):
-            for meeting in way:
-                if meeting.component and (why := outside(setup.type_of(meeting.component), wavelength)):
-                    found[f"{meeting.component} is {why}"] = None
-    return tuple(found)

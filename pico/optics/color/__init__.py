@@ -1,1 +1,0 @@
-"""What depends on wavelength: the range for which a part's numbers hold."""
