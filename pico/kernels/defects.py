@@ -64,12 +64,13 @@ def repair(values: NDArray[Any], places: Places) -> None:
 
 
 def median(values: NDArray[Any], axis: int | None = None) -> Any:
-    """Return the median along an axis, or of all numbers; of an even count the greater of the two in the middle.
-    That of numpy loads its masked arrays, which takes longer than a picture."""
+    """Return the median along an axis, or of all numbers. That of numpy loads its masked arrays, which takes longer
+    than a picture."""
     flat = values.ravel() if axis is None else values
-    along = 0 if axis is None else axis
-    half = flat.shape[along] // 2
-    return np.partition(flat, half, axis=along).take(half, axis=along)
+    along = axis or 0
+    half, odd = divmod(flat.shape[along], 2)
+    middle = [half] if odd else [half - 1, half]
+    return np.partition(flat, middle, axis=along).take(middle, axis=along).mean(axis=along)
 
 
 def _plain(pixels: NDArray[Any]) -> NDArray[Any]:
