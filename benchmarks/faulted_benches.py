@@ -118,7 +118,7 @@ def power(detector: str, sign: float) -> Callable[[Table], float]:
     def taken(table: Table) -> float:
         light, kind = light_on(table), table.setup.type_of(detector)
         if kind.number("mode_radius", "mm") is not None:
-            from pico.optics.coupling import coupled
+            from pico.optics.offsets import coupled
 
             return sign * sum(coupled(light.parts[detector], a.beam) for a in light.at(detector))
         return sign * power_on(light.at(detector), light.parts[detector])

@@ -30,9 +30,9 @@ import pico
 from pico.backends.sim.lighted import unseen_of
 from pico.backends.sim.store import load_world
 from pico.model.setup import Setup
-from pico.optics.coupling import coupled
 from pico.optics.environment import in_the_world
 from pico.optics.light import light_of
+from pico.optics.offsets import coupled
 from pico.places.bench import BenchPlace
 
 MOST, SURE, TAKEN = 60, 0.95, 0.9

@@ -24,6 +24,23 @@ def measure(
     picture: Annotated[
         Path | None, typer.Option("--picture", metavar="PNG", help="Keep what the camera saw as a picture.")
     ] = None,
+    image: Annotated[
+        list[str] | None,
+        typer.Option("--image", metavar="FILE", help="Measure a picture from disk by kernels; may be given again."),
+    ] = None,
+    at: Annotated[
+        list[float] | None, typer.Option("--at", metavar="MM", help="Where along the beam each --image was taken.")
+    ] = None,
+    pixel_size: Annotated[
+        float | None, typer.Option("--pixel-size", metavar="UM", min=1e-3, help="Of --image; without it px.")
+    ] = None,
+    black_level: Annotated[
+        float | None, typer.Option("--black-level", metavar="COUNT", help="Of --image: what a dark pixel reads.")
+    ] = None,
+    full_scale: Annotated[
+        float | None,
+        typer.Option("--full-scale", metavar="COUNT", min=1.0, help="Of --image: what a full pixel reads."),
+    ] = None,
     dry_run: DryRun = False,
     fidelity: Fidelity = None,
     auto_approve: Yes = False,
@@ -36,16 +53,29 @@ def measure(
     What is saturated has no value; then the exit code is 1. If a detector reads no light, what shuts it off is named.
     Several are measured in one run.
 
+    With --image kernels measure pictures from disk (TIFF, PNG, PGM, NPY), without a bench; m2 after widths fits the
+    beam propagation ratio to a series, with the places from --at or the names.
+
     Examples:
       pico measure cam.centroid
-      pico measure fc.power pm.power
       pico measure cam.image --picture spot.png
       pico measure 'cam.image | background | mode_overlap(radius=450)'
+      pico measure --image spot.png --pixel-size 5.2 d4sigma gaussian_fit
+      pico measure --image 'z*.tif' --pixel-size 5 'd4sigma | m2(wavelength=633)'
     """
     from pico.diagnostics import ExitCode, PicoError, error
 
     from ..runs.approving import measured
 
+    if image:
+        from ..runs import pictures
+
+        pictures.require_alone(picture, dry_run)
+        return pictures.measured(Session.of(context), what, image, at or (), pixel_size, black_level, full_scale)
+    if (
+        unused := {"--at": at, "--pixel-size": pixel_size, "--black-level": black_level, "--full-scale": full_scale}
+    ) and (given := [name for name, value in unused.items() if value not in (None, [])]):
+        raise PicoError(error("usage", f"{given[0]} is of --image", hint="add --image FILE"))
     if picture is not None and len(what) > 1:
         raise PicoError(
             error("usage", "--picture is of one measurement", hint=f"`pico measure {what[0]} --picture PNG`")

@@ -118,6 +118,7 @@ def _optimize(
     from ..runs.running import say
     from ..terminal.output import write
 
+    session.tell(bench.goals.cautions(chosen))
     plan = bench.goals.plan(chosen)
     more = plan.errored or (len(plan.operations) > 1 and not session.json)
     code = show(session, bench, plan, auto_approve or dry_run, single=True) if more else 0

@@ -1,4 +1,4 @@
-"""A measurement: a line for each number, what it was taken with, and what was not assured."""
+"""A measurement: a line for each number, what it was taken with, what was left out of it, and what was not assured."""
 
 from __future__ import annotations
 
@@ -32,6 +32,7 @@ def text(found: Measurement, *, run: str, advice: str = "", diagnostics: Sequenc
     units = {k: "" if isinstance(v, str) else _SETTINGS[k] for k, v in given.items()}  # `0 dB` has its own
     setting = ", ".join(f"{k} {value(v, units[k])}" for k, v in given.items())
     lines += wrap(f"{made}{setting + ', ' if setting else ''}`pico runs show {run}`", "  ")
+    lines += wrap(found.remark, "  ") if found.remark else []
     for what, why in found.not_assured.items():
         lines += wrap(paint("yellow", f"not assured: {what} ({why})"), "  ")
     lines += wrap(f"= help: {advice}", "  ") if advice else []

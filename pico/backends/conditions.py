@@ -24,10 +24,21 @@ def conditions(
     """
     found: dict[Condition, str] = {"settled": f"{', '.join(busy)} was under way" if busy else ""}
     found["arm parked"] = ", ".join(_standing_out(setup, seen))
+    if component in setup.lab.inventory and setup.type_of(component).optics.element == "detector":
+        found["in range"] = ", ".join(_out_of_range(setup, seen, component))
     for condition in WANTED:
         if condition in measurable.needs and (condition != "illumination" or _lamps(setup)):
             found[condition] = ", ".join(_unmet(setup, seen, component, measurable, condition))
     return found
+
+
+def _out_of_range(setup: Setup, seen: Observation, component: str) -> Sequence[str]:
+    """Return which parts on the way of light to a detector are not made for its wavelength, in words."""
+    from pico.optics.ends import doubts
+
+    parts = seen.components.items()
+    poses = {n: p.pose for n, p in parts if p.pose is not None and n in setup.lab.inventory and p.presence == "seen"}
+    return doubts(setup, poses, seen.known_values, component) if component in poses else ()
 
 
 def _without_shutter(setup: Setup, seen: Observation) -> Iterator[str]:

@@ -26,7 +26,7 @@ class Reading:
     """What was read: see `pico.model.measurement.Measurement`. `array`: what is too large for a line. `saturated`: how
     much of it was, in words, empty for nothing; None where that means nothing. `unit`: where the
     measurable says none. `unknown`: why there is no value; `reason`: the same as a code. `conditions`: what else
-    is assured of it, each with why it is not; '' where it is."""
+    is assured of it, each with why it is not; '' where it is. `remark`: what was left out of it, in words."""
 
     value: Value | Mapping[str, Value] | None
     array: NDArray[Any] | None = None
@@ -40,6 +40,7 @@ class Reading:
     unknown: str = ""
     reason: ReasonCode | None = None
     conditions: Mapping[Condition, str] = field(default_factory=dict)
+    remark: str = ""
 
 
 def measurement(
@@ -75,6 +76,7 @@ def measurement(
         kernel_version=reading.kernel_version,
         assured=tuple(condition for condition, why in said.items() if not why),
         not_assured={condition: why for condition, why in said.items() if why},
+        remark=reading.remark,
     )
 
 

@@ -16,6 +16,9 @@ GOOD = (0.5, 0.85)
 FULL, DARK = 0.99, 0.02
 """From which share on a frame is saturated, and up to which it shows nothing but noise."""
 _AIM, _STEP = 0.7, 20.0
+_NOISE = 7.0
+"""Median deviations by which the brightest of a million dark pixels stands out: five standard deviations."""
+_MOST_UNSATURATED = 0.98
 MOST = 8
 """Frames that are taken at most."""
 
@@ -52,13 +55,17 @@ def in_vain(name: str, frames: Sequence[Taken]) -> Diagnostic | None:
     return None
 
 
-def brightest(pixels: NDArray[Any]) -> float:
-    """Return the brightest place of a frame (h, w) of counts, where a hot pixel is none: the middle of 3 x 3 pixels."""
-    import cv2
+def taken(exposure: float, pixels: NDArray[Any], black: float, full: float) -> Taken:
+    """Return how bright a frame (h, w) of counts is, by the rule of the kernels: full if these would call it saturated,
+    else its brightest pixel, defective ones left out."""
+    import numpy as np
 
-    return float(cv2.medianBlur(pixels, 3).max())
+    from pico.kernels.defects import median
+    from pico.kernels.frame import Frame
 
-
-def level_of(peak: float, black: float, full: float) -> float:
-    """Return how bright a frame is whose brightest pixel reads `peak`, as a share of full scale above black."""
-    return max(0.0, peak - black) / (full - black)
+    frame = Frame(pixels, full_scale=full, black_level=black)
+    if frame.saturated:
+        return Taken(exposure, 1.0)
+    some = frame.signal[::4, ::4]
+    noise = _NOISE * float(median(np.abs(some - median(some))))
+    return Taken(exposure, min(max(0.0, float(frame.signal.max()) - noise) / (full - black), _MOST_UNSATURATED))

@@ -8,7 +8,7 @@ from typing import Literal
 
 ReasonCode = Literal[
     "over-range", "under-range", "no-number", "garbled", "instrument-error", "saturated", "stale", "wavelength",
-    "out-of-limits", "not-homed", "moving", "no-answer", "not-computed",
+    "out-of-limits", "not-homed", "moving", "no-answer", "not-computed", "cut-trace",
 ]  # fmt: skip
 """Why a value is unknown, or not assured: the closed list that `REASONS` explains."""
 REASONS: Mapping[ReasonCode, str] = MappingProxyType(
@@ -26,6 +26,7 @@ REASONS: Mapping[ReasonCode, str] = MappingProxyType(
         "moving": "the device is between two of its positions",
         "no-answer": "the instrument did not answer in time, or its link was lost",
         "not-computed": "the kernels find no such number in what was measured",
+        "cut-trace": "the model did not follow the light to its end, and the rest of it may come to the detector",
     }
 )
 """What each reason code means."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
 from pico.bench.plans import Plans
-from pico.diagnostics import PicoError, did_you_mean, error
+from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.model.goal import Goal
 from pico.model.state import goals_of, references_of
 from pico.optimize.problem import Problem, Variable
@@ -168,6 +168,16 @@ class Goals:
         if name in found.wrong:
             raise PicoError(found.wrong[name])
         return found.ready[name]
+
+    def cautions(self, chosen: Chosen) -> tuple[Diagnostic, ...]:
+        """Return what the goal cannot tell of its tunables, and which of these stand outside of where they are
+        searched, as warnings; by the nominal way of light on the bench as it is seen."""
+        from pico.optics.nominal.sensitivity import cautions
+        from pico.planning.goal_light import standing_poses
+
+        setup, seen = self.opened.setup, self.opened.observe()
+        poses = {n: pose for n, pose in standing_poses(seen).items() if n in setup.lab.inventory}
+        return cautions(setup, poses, seen.known_values, chosen.goal)
 
     def plan(self, chosen: Chosen, *, absorb: bool = True) -> Plan:
         """Return the plan that brings light to a goal; raises PicoError. `absorb`: its tunables make up first for how

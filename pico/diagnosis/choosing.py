@@ -43,7 +43,7 @@ def chosen(nominal: Nominal, before: tuple[Quantity, ...] = ()) -> Chosen:
     """Return what can be read of a bench as it stands, or what was `before`; nothing where no light comes to a
     detector."""
     light = nominal.light()
-    lit = [n for n in sorted(light.parts) if light.at(n) and sum(a.power for a in light.at(n)) > 0]
+    lit = [n for n in sorted(light.parts) if not light.unfollowed(n) and sum(a.power for a in light.at(n)) > 0]
     sources = sorted({a.beam.source for n in lit for a in light.at(n)})
     way = _on_the_way(nominal, lit)
     found = list(before or _found(nominal, sources, way, lit))

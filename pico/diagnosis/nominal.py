@@ -113,7 +113,8 @@ class Nominal:
         if measurable == "monitor":
             return {measurable: math.exp(sum(s.size for s in steps if s.part == component and s.what == "power"))}
         factor, steps = self._told(component, steps)
-        arrivals = self.light(shot.at, steps).at(component)
+        light = self.light(shot.at, steps)
+        arrivals = () if light.unfollowed(component) else light.at(component)
         total = sum(a.power for a in arrivals)
         strong = [a for a in arrivals if a.power > SPECK * total]
         if not strong:
@@ -122,7 +123,7 @@ class Nominal:
             found = _spot(strong) if all(not a.beam.unknown for a in strong) else None
             return None if found is None else {k: v - factor.get(k, 0.0) for k, v in found.items()}
         if "mode_radius" in self.setup.type_of(component).parameters:
-            from pico.optics.coupling import coupled
+            from pico.optics.offsets import coupled
 
             total = sum(coupled(a.part, a.beam) * a.power for a in strong)
         return {measurable: total * gain * math.exp(-factor["loss"])}

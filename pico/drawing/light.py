@@ -17,7 +17,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from pico.optics.light import Crossing, Light
+    from pico.optics.following import Crossing
+from pico.optics.light import Light
 
 WIDTH = 960
 _BEAM = (224, 36, 36)

@@ -1,9 +1,9 @@
-"""The light that is not the beam's: a tilted plane, fitted to where the beam is not. Needs numpy and OpenCV at its top:
-kernels import it inside their functions."""
+"""The light that is not the beam's: a tilted plane, fitted to where the beam is not, and how well it fits. Needs numpy
+and OpenCV at its top: kernels import it inside their functions."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -17,12 +17,20 @@ _LEAST = 0.05
 _OUTLYING = 4.0
 """Pixels so many standard deviations off the plane belong to something else: ISO 11146-3 has 2 to 4."""
 _COARSE = 96
+_TILES = 24
+"""Tiles outside of the beam from which their scatter tells how uneven a background is."""
+_UNEVEN = 4.0
+"""Standard deviations by which the scatter of tiles must exceed what noise makes."""
+
+
+_ALL = slice(None)
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
     """A background: `level` [count], `slopes` across and down [count over the frame's whole width, height], all three
-    from the middle of the frame, with their `covariance` (3, 3); `variance` of one pixel about it [count^2]."""
+    from the middle of the frame, with their `covariance` (3, 3); `variance` of one pixel about it [count^2], the
+    misfit of the plane included."""
 
     level: float
     slopes: tuple[float, float]
@@ -34,10 +42,11 @@ class Plane:
         """Level, slope across, slope down."""
         return np.array([self.level, *self.slopes])
 
-    def over(self, shape: tuple[int, int]) -> NDArray[np.float32]:
-        """Return the plane at each pixel of a picture (h, w) of the whole frame."""
+    def over(self, shape: tuple[int, int], rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
+        """Return the plane at each pixel of a picture (h, w) of the whole frame, or of a part of it."""
         across, down = (((np.arange(n) + 0.5) / n - 0.5).astype(np.float32) for n in shape[::-1])
-        return np.float32(self.level) + np.float32(self.slopes[0]) * across + np.float32(self.slopes[1]) * down[:, None]
+        right, below = np.float32(self.slopes[0]) * across[columns], np.float32(self.slopes[1]) * down[rows]
+        return np.float32(self.level) + right + below[:, None]
 
 
 def binning(shape: tuple[int, int]) -> int:
@@ -85,3 +94,26 @@ def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Pla
         keep = np.abs(left) < _OUTLYING * spread
     variance = max(spread**2 * by**2, least)
     return Plane(float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
+
+
+def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> Plane:
+    """Return the plane with a variance that holds for areas, too.
+
+    The means of tiles outside of the beam scatter by the noise of their pixels, and by more if the background is not
+    flat: the variance is that of a pixel which would make the same scatter.
+    """
+    left = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
+    good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
+    variance, size = behind.variance, 2
+    while min(coarse.shape) >= 2 * size:
+        tiles, whole = binned(left * good, size), binned(good, size) > 0.999
+        values = tiles[whole].astype(np.float64)
+        if len(values) < _TILES:
+            break
+        for _ in range(2):
+            values = values[np.abs(values - values.mean()) <= _OUTLYING * values.std()]
+        own = float(values.var()) * (by * size) ** 2
+        if own > behind.variance * (1 + _UNEVEN * np.sqrt(2 / len(values))):
+            variance = max(variance, own)
+        size *= 2
+    return replace(behind, variance=variance, covariance=behind.covariance * variance / behind.variance)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -13,21 +14,40 @@ if TYPE_CHECKING:
 PLATEAU, CLIFF, FINE = 100, 8, 1000.0
 """How many pixels that read the same, above so many counts that hardly any reads, are full below full scale; and the
 least full scale [count] at which noise tells equal pixels from full ones."""
+_STUCK = 0.1
+"""The share of full scale by which a full pixel must exceed its neighbors to be a defect, not light."""
 
 
 def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
-    """Return how many pixels of a picture are full, and what these read [count]: full scale, or less, if the pixels
-    overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau."""
+    """Return how many pixels of a picture are saturated, and what these read [count].
+
+    A single full pixel without light around it is a defect and does not count. The level is full scale, or less if the
+    pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau.
+    """
     import numpy as np
 
     top = float(pixels.max())
     if top >= full_scale:
-        return int(np.count_nonzero(pixels >= full_scale)), full_scale
+        rows, _ = places = np.nonzero(pixels >= full_scale)
+        return len(rows) - int(_stuck(pixels, places, full_scale).sum()), full_scale
     if pixels.dtype.kind in "ui" and full_scale >= FINE and top > full_scale / 4:
         same = int(np.count_nonzero(pixels == pixels.max()))
         if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= top - CLIFF)) - same):
             return same, top
     return 0, top
+
+
+def saturated(pixels: NDArray[Any], full_scale: float) -> str:
+    """Return how many pixels of a picture are saturated, in words; empty if none is."""
+    full, level = full_pixels(pixels, full_scale)
+    return f"{full} of {pixels.size} pixels read {level:g}" if full else ""
+
+
+def _stuck(pixels: NDArray[Any], places: Any, full_scale: float) -> NDArray[Any]:
+    """Whether each of some full pixels stands alone in the dark."""
+    from pico.kernels.defects import lone
+
+    return lone(pixels, places, _STUCK * full_scale)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,14 +79,35 @@ class Frame:
         if min(self.pixel_size, self.exposure, self.electrons_per_count) <= 0 or self.read_noise < 0:
             raise ValueError("pixel size, exposure and electrons a count are above zero, noise is not below it")
 
-    @property
+    @cached_property
     def signal(self) -> NDArray[np.float32]:
-        """The pixels above black [count], (h, w)."""
+        """The pixels above black [count], (h, w); a defective one reads what its neighbors do. Not to be written to."""
         import numpy as np
+
+        from pico.kernels.defects import repair
 
         above = self.pixels.astype(np.float32)
         above -= np.float32(self.black_level) if self.dark is None else self.dark.astype(np.float32)
+        repair(above, self.defects)
+        above.flags.writeable = False
         return above
+
+    @cached_property
+    def defects(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+        """Rows and columns of single pixels that are stuck, hot or dead: they differ from all their neighbors as no
+        light of 3 px or more does."""
+        import numpy as np
+
+        from pico.kernels.defects import defects, median
+
+        dark = self.black_level if self.dark is None else float(median(self.dark[::8, ::8]))
+        rows, columns = defects(self.pixels, self.dark_variance, self.electrons_per_count, dark)
+        full = np.nonzero(self.pixels >= self.full_scale) if self.pixels.max() >= self.full_scale else None
+        if full is not None:
+            stuck = _stuck(self.pixels, full, self.full_scale)
+            both = np.unique(np.stack([np.append(rows, full[0][stuck]), np.append(columns, full[1][stuck])]), axis=1)
+            rows, columns = both[0], both[1]
+        return rows, columns
 
     @property
     def dark_variance(self) -> float:
@@ -81,13 +122,21 @@ class Frame:
 
     @property
     def refusal(self) -> str:
-        """Why nothing can be said of the light in this picture; empty where that can be."""
+        """Why nothing can be said of the light in this picture; empty if something can be."""
         import numpy as np
 
         if self.pixels.dtype.kind == "f" and not np.isfinite(self.pixels).all():
             return "some pixels are no numbers"
-        full, level = full_pixels(self.pixels, self.full_scale)
-        return f"{full} of {self.pixels.size} pixels read {level:g}" if full else ""
+        return saturated(self.pixels, self.full_scale)
+
+    @property
+    def remark(self) -> str:
+        """Which pixels were left out, in words; empty if none was."""
+        if not len(self.defects[0]):
+            return ""
+        count, at = len(self.defects[0]), ", ".join(f"({c}, {r})" for r, c in list(zip(*self.defects, strict=True))[:3])
+        more = ", ..." if count > 3 else ""
+        return f"{count} defective pixel{'s' * (count > 1)} left out, at column and row {at}{more}"
 
     def at(self, column: float, row: float) -> tuple[float, float]:
         """Return a place in pixels (0, 0 is the middle of the pixel at the top left) as x, y [um] from the middle of
@@ -98,14 +147,15 @@ class Frame:
 
 @dataclass(frozen=True)
 class Readings:
-    """Powers that were read one after the other, in any one unit: `values`, one standard deviation each, and `angles`
-    [deg] or `names` of the settings that they were read at."""
+    """Numbers that were read one after the other, in any one unit: `values`, one standard deviation each, and `angles`
+    [deg], `names` of the settings or `places` along a beam [mm] that they were read at."""
 
     values: tuple[float, ...]
     sigma: tuple[float, ...]
     names: tuple[str, ...] = ()
     angles: tuple[float, ...] = ()
+    places: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if any(len(row) not in (0, len(self.values)) for row in (self.names, self.angles, self.sigma)):
-            raise ValueError("readings have as many sigmas, names and angles as values")
+        if any(len(row) not in (0, len(self.values)) for row in (self.names, self.angles, self.places, self.sigma)):
+            raise ValueError("readings have as many sigmas, names, angles and places as values")

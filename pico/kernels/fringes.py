@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.kernels.spot import sums
+from pico.kernels.moments import sums
 
 Array = NDArray[np.float64]
 _REFINED = 4

@@ -1,5 +1,5 @@
-"""Least squares of a rotated Gaussian on a flat background. Needs numpy at its top: kernels import it inside their
-functions."""
+"""Least squares of a rotated Gaussian on a background of known slope. Needs numpy at its top: kernels import it inside
+their functions."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from numpy.typing import NDArray
 
 from pico.kernels.background import binned
 from pico.kernels.frame import Frame
-from pico.kernels.spot import Start, found
+from pico.kernels.moments import PIXEL
+from pico.kernels.spot import NARROWEST
+from pico.kernels.start import Start, found
 
 Array = NDArray[np.float64]
 _FINE = 24
@@ -31,14 +33,21 @@ class Fit:
     values: Array
     covariance: Array
 
+    @property
+    def narrow(self) -> bool:
+        """Whether it has too few pixels to tell its width."""
+        return float(min(self.values[3:5])) < (NARROWEST / 4) ** 2
+
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """Means of blocks about a beam: values (n,), column and row of each (n,) [blocks]."""
+    """Means of blocks about a beam: values (n,) without the background's slopes, column and row of each (n,) [blocks],
+    and what a slope across and one down make there (n, 2)."""
 
     values: Array
     columns: Array
     rows: Array
+    slopes: Array
 
 
 def fitted(frame: Frame) -> Fit | str:
@@ -46,8 +55,7 @@ def fitted(frame: Frame) -> Fit | str:
     start = found(frame)
     if isinstance(start, str):
         return start
-    width = 4 * math.sqrt(float(start.moments[2:4].min()))
-    by = max(1, min(int(width) // _FINE, 16))
+    by = max(1, min(int(start.width) // _FINE, 16))
     patch, first = _patch(frame, start, by)
     found_at = _least_squares(patch, first)
     if found_at is None:
@@ -60,6 +68,13 @@ def fitted(frame: Frame) -> Fit | str:
     misfit = max(1.0, float((left**2).sum() / scatter.sum()))
     inverse = np.linalg.inv(jacobian.T @ jacobian)
     covariance = inverse @ (jacobian.T * (scatter * misfit)) @ jacobian @ inverse
+    tilted = inverse @ jacobian.T @ patch.slopes
+    covariance += tilted @ start.background.covariance[1:, 1:] @ tilted.T
+    if start.stripes is not None:
+        for variance, places in zip(start.stripes.variances, (patch.columns, patch.rows), strict=True):
+            each = np.zeros((int(places.max()) + 1, jacobian.shape[1]))
+            np.add.at(each, places.astype(int), jacobian)
+            covariance += variance / by * inverse @ each.T @ each @ inverse
     return _in_pixels(theta, covariance, by)
 
 
@@ -70,7 +85,10 @@ def _in_pixels(theta: Array, covariance: Array, by: int) -> Fit | str:
     values[0] *= math.sqrt(_determinant(theta[3:6] * by**2) / max(_determinant(values[3:]), 1e-9))
     if values[0] <= 0 or _determinant(values[3:]) <= 0:
         return "no Gaussian fits the spot"
-    return Fit(values, covariance[:6, :6] * np.outer(scale, scale))
+    covariance = covariance[:6, :6] * np.outer(scale, scale)
+    covariance[3, 3] += PIXEL**2 / 3
+    covariance[4, 4] += PIXEL**2 / 3
+    return Fit(values, covariance)
 
 
 def _determinant(variances: Array) -> float:
@@ -79,17 +97,25 @@ def _determinant(variances: Array) -> float:
 
 def _patch(frame: Frame, start: Start, by: int) -> tuple[_Patch, Array]:
     """What is fitted to, and the start: peak, middle and variances [blocks], level."""
-    coarse = binned(frame.signal, by)
+    coarse = binned(start.signal, by)
     column, row = (start.moments[:2] - (by - 1) / 2) / by
     across, down, both = start.moments[2:] / by**2
     reach_x, reach_y = (max(4.0, _REACH * math.sqrt(v)) for v in (across, down))
     top, left = max(0, int(row - reach_y)), max(0, int(column - reach_x))
     part = coarse[top : int(row + reach_y) + 2, left : int(column + reach_x) + 2].astype(np.float64)
     rows, columns = np.indices(part.shape)
-    patch = _Patch(part.ravel(), (columns + left).ravel().astype(float), (rows + top).ravel().astype(float))
+    columns, rows = (columns + left).astype(float), (rows + top).astype(float)
+    slopes = _slopes(columns.ravel(), rows.ravel(), by, frame)
+    patch = _Patch(part.ravel() - slopes @ start.background.coefficients[1:], columns.ravel(), rows.ravel(), slopes)
     level = start.background.level
     peak = max(float(part.max()) - level, 1e-6)
     return patch, np.array([peak, column, row, across, down, both, level])
+
+
+def _slopes(columns: Array, rows: Array, by: int, frame: Frame) -> Array:
+    """Where blocks are, as shares of the frame's width and height from its middle (n, 2)."""
+    h, w = frame.pixels.shape
+    return np.stack([(columns + 0.5) * by / w - 0.5, (rows + 0.5) * by / h - 0.5], axis=1)
 
 
 def _model(theta: Array, patch: _Patch) -> tuple[Array, Array]:

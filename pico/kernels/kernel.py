@@ -44,7 +44,7 @@ class Declaration:
 @dataclass(frozen=True)
 class Result:
     """Numbers by name with one standard deviation each, in the units of the same names; where there are none, `unknown`
-    says why. `kernel` and its version: what made them."""
+    says why. `kernel` and its version: what made them. `remark`: what of the picture was left out, in words."""
 
     value: Mapping[str, float] = field(default_factory=dict)
     sigma: Mapping[str, float] = field(default_factory=dict)
@@ -52,6 +52,7 @@ class Result:
     unknown: str = ""
     kernel: str = ""
     version: str = ""
+    remark: str = ""
 
 
 Given = Frame | Readings

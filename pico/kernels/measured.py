@@ -21,12 +21,13 @@ _KNOWN = ("pixel_size", "exposure", "gain", "full_scale", "black_level", "electr
 @dataclass(frozen=True)
 class Computed:
     """A number, or several by name, one standard deviation of each, and their units in that order; or why there are
-    none."""
+    none. `remark`: what of the picture was left out, in words."""
 
     value: float | Mapping[str, float] | None
     sigma: float | Mapping[str, float] | None
     unit: str
     unknown: str
+    remark: str = ""
 
 
 def frame_of(array: NDArray[Any], settings: Mapping[str, Any]) -> Frame:
@@ -47,8 +48,8 @@ def computed(pipeline: Pipeline, array: NDArray[Any], settings: Mapping[str, Any
         return Computed(None, None, unit, found.unknown)
     if len(found.value) == 1:
         (name,) = found.value
-        return Computed(found.value[name], found.sigma[name], unit, "")
-    return Computed(found.value, found.sigma, unit, "")
+        return Computed(found.value[name], found.sigma[name], unit, "", found.remark)
+    return Computed(found.value, found.sigma, unit, "", found.remark)
 
 
 def version(pipeline: Pipeline) -> str:

@@ -99,7 +99,11 @@ def run(pipeline: Pipeline, given: Given) -> Result:
         module = kernel(step.name)
         made = module.apply(given, step.parameters)
         if isinstance(made, Result):
-            return replace(_finite(made), units=module.KERNEL.units, kernel=step.name, version=module.KERNEL.version)
+            made = _finite(made)
+            masked = given.remark if isinstance(given, Frame) and "defects" in vars(given) and not made.unknown else ""
+            remark = "; ".join(words for words in (made.remark, masked) if words)
+            declared = module.KERNEL
+            return replace(made, units=declared.units, kernel=step.name, version=declared.version, remark=remark)
         given = made
     raise _pictured(pipeline)
 

@@ -15,11 +15,12 @@ from pico.model.shown.html import number, table
 
 FORMAT = Format("pico.measurement")
 
-Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated", "wavelength"]
+Condition = Literal["settled", "arm parked", "shutter", "illumination", "not saturated", "wavelength", "in range"]
 """What may be assured of a measurement; `shutter` and `illumination` where the measurable declares what it needs,
-`wavelength` of a meter that is told the wavelength of the light."""
+`wavelength` of a meter that is told the wavelength of the light, `in range` of light for whose wavelength all parts on
+its way to the detector are made."""
 CONDITIONS: tuple[Condition, ...] = get_args(Condition)
-_LATER: frozenset[Condition] = frozenset({"wavelength"})
+_LATER: frozenset[Condition] = frozenset({"wavelength", "in range"})
 """Conditions that earlier records do not have, and a simulated meter need not: that only one of two measurements has
 them does not keep these from being compared."""
 PEEKED = "it was only peeked at, without the lease"
@@ -46,7 +47,8 @@ class Measurement:
     (the calibration of a meter); None: all of it. `settings`: what it depends on, such as exposure, gain and
     background. `time` on the bench's clock [s], `at` by the wall, UTC. `kernel` and its version: what made the value of
     what a device gave.
-    `assured`: what was seen to hold; `not_assured`: what was not, and why.
+    `assured`: what was seen to hold; `not_assured`: what was not, and why. `remark`: what was left out of it, such as
+    the defective pixels of a camera; empty if nothing was.
     """
 
     schema: str = FORMAT.schema
@@ -66,6 +68,7 @@ class Measurement:
     kernel_version: str | None = None
     assured: tuple[Condition, ...] = ()
     not_assured: Mapping[Condition, str] = field(default_factory=dict)
+    remark: str = ""
 
     @property
     def address(self) -> str:

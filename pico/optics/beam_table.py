@@ -10,15 +10,19 @@ from typing import Any
 import numpy as np
 
 from pico.diagnostics import Diagnostic, warning
+from pico.model.materials.glass import DESIGN
+from pico.model.materials.ranges import unfit
+from pico.model.materials.response import BLIND, quantum_efficiency
 from pico.model.observation import slot_at
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
-from pico.optics.ends import stray
+from pico.optics.ends import counted, stray
+from pico.optics.following import Crossing
 from pico.optics.gaussian import front
 from pico.optics.geometry import Event
-from pico.optics.light import Crossing, Light, irradiance, out_of_step
+from pico.optics.light import Light, irradiance, out_of_step
 from pico.optics.part import Part
 
 CLIPPED = 0.01
@@ -104,8 +108,8 @@ def _incidence(beam: Beam, part: Part | None) -> float:
 
 
 def troubles(setup: Setup, light: Light) -> tuple[Diagnostic, ...]:
-    """Return a warning for each thing that is wrong with the light."""
-    return tuple(_troubles(setup, light))
+    """Return a warning for each thing that is wrong with the light; how often, if several beams do the same."""
+    return counted(_troubles(setup, light))
 
 
 def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
@@ -136,9 +140,20 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
             text, near = f"no light comes to {name}", _passing(light, part)
             hint = "move it into a beam, or a beam onto it"
             yield warning("dark", f"{text}: {near}" if near else text, hint=hint, address=name)
-    for source in light.endless:
-        yield warning("endless", f"the beam of {source} goes round and round, and is not followed to its end",
-                      hint="turn a mirror, or end it in a beam block", address=source)  # fmt: skip
+    pairs = {
+        (c.beam.source, c.component): c.beam.wavelength * 1e6
+        for c in light.crossings
+        if c.component and not c.beam.ghost
+    }
+    for (source, name), wavelength in pairs.items():
+        if name != source:
+            yield from unfit(light.parts[name].kind, name, source, wavelength)
+    for source, reached in light.cut.items():
+        count = sum(c.beam.source == source for c in light.crossings)
+        detectors = sorted(n for n in reached if light.parts[n].kind.optics.element == "detector")
+        text = f"the beam of {source} goes round and round, and is not followed beyond {count} stretches"
+        text += f": what {', '.join(detectors)} would read is unknown" if detectors else ""
+        yield warning("endless", text, hint="turn a mirror, or end it in a beam block", address=source)
 
 
 def _passing(light: Light, part: Part) -> str:
@@ -218,7 +233,8 @@ def exposed(light: Light, part: Part) -> Exposed | None:
     if (well := part.kind.number("full_well", "")) is not None:
         exposure = part.value("exposure", "ms", 1.0)
         times = _brightest(arrivals, part) * (part.number("pixel_size", "um", 1.0) * 1e-3) ** 2 * exposure
-        times *= electrons(arrivals[0].wavelength, efficiency(part)) / well
+        wavelength = arrivals[0].wavelength
+        times *= electrons(wavelength, efficiency(part, wavelength)) / well
         least = (part.kind.tunables["exposure"].range or (0.0, 0.0))[0] if "exposure" in part.kind.tunables else 0.0
         enough = exposure / times if times else exposure
         hint = f"expose for {_two(enough)} ms, or weaken the beam with a filter"
@@ -240,9 +256,12 @@ def _two(number: float) -> str:
     return f"{float(f'{number:.2g}'):.10g}"
 
 
-def efficiency(part: Part) -> float:
-    """Return how many photo-electrons a detector gives for a photon, its filter included."""
-    return part.number("quantum_efficiency", "", 1.0) * 10 ** -part.number("filter_density", "", 0.0)
+def efficiency(part: Part, wavelength: float) -> float:
+    """Return how many photo-electrons a detector gives for a photon of a wavelength [nm], its filter included: its
+    `quantum_efficiency` is that at `design_wavelength`, from which its material's curve leads."""
+    sensor, design = part.word("sensor", ""), part.number("design_wavelength", "nm", DESIGN)
+    by = quantum_efficiency(sensor, wavelength) / max(quantum_efficiency(sensor, design), BLIND)
+    return min(1.0, part.number("quantum_efficiency", "", 1.0) * by) * 10 ** -part.number("filter_density", "", 0.0)
 
 
 def electrons(wavelength: float, efficiency: float) -> float:

@@ -1,14 +1,18 @@
-"""Where the beams of a state end: on the table's edge or a housing, nobody wants them to."""
+"""Where the beams of a state end, which should not be the table's edge or a housing, and which parts on the way are not
+made for their wavelength."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections import Counter
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.pose import short
+from pico.model.materials.ranges import outside, unfit, wavelength_of
+from pico.model.pose import Pose, short
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
-from pico.optics.axis import Meeting, beams
+from pico.optics.axis import Axis, Meeting, Values, beams
 
 
 def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tuple[Diagnostic, ...]:
@@ -21,8 +25,22 @@ def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tup
         for axis in beams(setup, poses, values)
         if values.get(axis.source, {}).get("emission") is True and axis.source not in but
     )
-    found = (one for axis in on for end in axis.meetings for one in stray(setup, axis.source, end))
-    return tuple(dict.fromkeys(found))  # two arms of an interferometer send back to one place
+    found = (one for axis in on for one in (*_of_axis(setup, axis), *out_of_range(setup, axis, values)))
+    return counted(found)  # two arms of an interferometer send back to one place
+
+
+def _of_axis(setup: Setup, axis: Axis) -> Iterator[Diagnostic]:
+    for end in axis.meetings:
+        yield from stray(setup, axis.source, end)
+    if axis.endless:
+        text = f"the beam of {axis.source} goes round and round, and is not followed beyond {len(axis.legs)} stretches"
+        yield warning("endless", text, hint="turn a mirror, or end it in a beam block", address=axis.source)
+
+
+def counted(found: Iterable[Diagnostic]) -> tuple[Diagnostic, ...]:
+    """Return each diagnostic once, with how many beams it is true of."""
+    count = Counter(found)
+    return tuple(one if n == 1 else replace(one, summary=f"{one.summary} ({n} beams)") for one, n in count.items())
 
 
 def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
@@ -40,3 +58,26 @@ def stray(setup: Setup, laser: str, end: Meeting) -> Iterator[Diagnostic]:
     elif end.event == "blocked" and setup.type_of(end.component).optics.element != "block":
         text = f"the beam of {laser} ends on the housing of {end.component} at ({x}, {y}), beside its aperture"
         yield warning("beam", text, hint=f"move {end.component} into the beam or out of it", address=end.component)
+
+
+def out_of_range(setup: Setup, axis: Axis, values: Values) -> Iterator[Diagnostic]:
+    """Yield a warning for each part that a beam comes to and whose numbers do not hold for it."""
+    wavelength = wavelength_of(setup, axis.source, values.get(axis.source, {}))
+    if wavelength is not None:
+        for name in dict.fromkeys(m.component for m in axis.meetings if m.component not in ("", axis.source)):
+            yield from unfit(setup.type_of(name), name, axis.source, wavelength)
+
+
+def doubts(setup: Setup, poses: Mapping[str, Pose], values: Values, detector: str) -> Sequence[str]:
+    """Return which parts on the ways of light to a detector, itself included, are not made for it, in words. Sources
+    that are known to be off do not count."""
+    found: dict[str, None] = {}
+    for axis in beams(setup, poses, values):
+        wavelength = wavelength_of(setup, axis.source, values.get(axis.source, {}))
+        if wavelength is None or values.get(axis.source, {}).get("emission") is False:
+            continue
+        for way in axis.ways(detector):
+            for meeting in way:
+                if meeting.component and (why := outside(setup.type_of(meeting.component), wavelength)):
+                    found[f"{meeting.component} is {why}"] = None
+    return tuple(found)

@@ -9,6 +9,8 @@ from itertools import combinations, groupby
 
 import numpy as np
 
+from pico.model.materials.glass import DESIGN
+from pico.model.materials.response import ratio
 from pico.model.simulated import SensorErrors
 from pico.optics.beam_table import decibel, efficiency, electrons
 from pico.optics.light import Arrival, irradiance
@@ -37,11 +39,11 @@ def electrons_of(arrivals: Iterable[Arrival], part: Part, stray: float = 0.0) ->
     sensor [nW/mm2]."""
     sensor, exposure = sensor_of(part), part.value("exposure", "ms", 1.0)
     per_power = (sensor.pitch * 1e-3) ** 2 * exposure
-    room = stray * 1e-6 * per_power * electrons(ROOM, efficiency(part))
+    room = stray * 1e-6 * per_power * electrons(ROOM, efficiency(part, ROOM))
     total: Electrons | None = None
     for wavelength, found in groupby(sorted(arrivals, key=lambda a: a.wavelength), key=lambda a: a.wavelength):
         light = irradiance(tuple(found), sensor.y, sensor.z, np.float32)
-        light *= np.float32(per_power * electrons(wavelength, efficiency(part)))
+        light *= np.float32(per_power * electrons(wavelength, efficiency(part, wavelength)))
         total = light if total is None else total + light  # of most cameras there is one: pictures are large
     if total is None:
         return np.full((sensor.size[1], sensor.size[0]), room, dtype=np.float32)
@@ -118,16 +120,26 @@ def _period(one: Arrival, other: Arrival) -> float:
     return one.beam.wavelength / size if size else math.inf
 
 
+def relative(part: Part, wavelength: float) -> float:
+    """Return what a detector tells of light of a wavelength [nm] as a share of what is there: of the wavelength that
+    it is set to, or whose `responsivity` its type gives, 1."""
+    sensor = part.word("sensor", "")
+    if "wavelength" in part.kind.tunables:
+        return ratio(sensor, wavelength, part.value("wavelength", "nm", wavelength))
+    return ratio(sensor, wavelength, part.number("design_wavelength", "nm", DESIGN)) if sensor else 1.0
+
+
 def power_reading(arrivals: Iterable[Arrival], part: Part, *, seed: int = 1, number: int = 0) -> Power:
     """Return what a power meter reads [mW], or a photodiode behind its amplifier [V].
 
     A meter is wrong by a share, the same for all its readings, of which `uncertainty` is two standard deviations; and
-    each reading has the noise `least_power`. It takes light to be of the `wavelength` that it is set to, and as each
-    photon gives it as much, a reading of another is wrong by the ratio of the two.
+    each reading has the noise `least_power`. It takes light to be of the `wavelength` that it is set to, and a reading
+    of another is wrong by the ratio of what its material gives of the two. The `responsivity` of a photodiode holds at
+    its `design_wavelength`.
     """
     power = 0.0
     for wavelength, found in groupby(sorted(arrivals, key=lambda a: a.wavelength), key=lambda a: a.wavelength):
-        power += power_on(tuple(found), part) * wavelength / part.value("wavelength", "nm", wavelength)
+        power += power_on(tuple(found), part) * relative(part, wavelength)
     own = np.random.default_rng([seed, *part.name.encode()]).standard_normal()
     noise = np.random.default_rng([seed, number, *part.name.encode()]).standard_normal()
     volts = part.kind.number("saturation", "V")

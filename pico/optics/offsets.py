@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from pico.optics import gaussian
 from pico.optics.beam import Beam, forward, level
-from pico.optics.coupling import coupled
 from pico.optics.part import Part, within
 
 if TYPE_CHECKING:
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 _STEP = 0.02
 """Of a width, by which a fiber is moved beside a beam to find how much it takes."""
+_PARAXIAL = math.cos(math.radians(20))
+"""The cosine of the angle beyond which light does not couple into a fiber."""
 
 
 @dataclass(frozen=True)
@@ -55,7 +57,7 @@ def offset(light: Light, place: Place) -> Array | None:
     if part.optic.element == "spatial_filter":
         hole = [part.value(f"pinhole_{axis}", "mm", 0.0) for axis in "yz"]
         return np.asarray(part.number("focal_length", "mm", 10.0) * slopes - hole)
-    return np.concatenate([across, slopes]) if _is_fibre(part) else across
+    return np.concatenate([across, slopes]) if _is_fiber(part) else across
 
 
 def falling(light: Light, place: Place) -> Falling | None:
@@ -64,8 +66,8 @@ def falling(light: Light, place: Place) -> Falling | None:
     if beam is None:
         return None
     part = light.parts[place.component]
-    if _is_fibre(part):
-        return _into_fibre(part, beam)
+    if _is_fiber(part):
+        return _into_fiber(part, beam)
     ahead = part.axes[0]
     came = forward(beam, float((part.origin - beam.at) @ ahead) / float(beam.along @ ahead))
     wide, radius = came.widths[0], _radius(part, place)
@@ -85,7 +87,7 @@ def _strongest(light: Light, place: Place) -> Beam | None:
     return max((c.beam for c in by or [c for _, c in found]), key=lambda beam: beam.power, default=None)
 
 
-def _is_fibre(part: Part) -> bool:
+def _is_fiber(part: Part) -> bool:
     return "mode_radius" in part.kind.parameters
 
 
@@ -103,7 +105,7 @@ def _radius(part: Part, place: Place) -> float:
     return part.number("active_diameter", "mm", 2 * part.optic.radius) / 2
 
 
-def _into_fibre(part: Part, beam: Beam) -> Falling:
+def _into_fiber(part: Part, beam: Beam) -> Falling:
     """Return how a fiber loses a beam, by what it takes of it beside its middle and aslant: second differences."""
     ahead, left, up = part.axes
     came = forward(beam, float((part.origin - beam.at) @ ahead) / float(beam.along @ ahead))
@@ -124,3 +126,35 @@ def _into_fibre(part: Part, beam: Beam) -> Falling:
             both = sum(s * t * taken(s * unit[i] + t * unit[j]) for s in (1, -1) for t in (1, -1)) / 4
             shape[i, j] = shape[j, i] = -both / 2 / (steps[i] * steps[j])
     return Falling(shape, math.exp(best) * came.power * part.number("transmission", "", 1.0))
+
+
+def coupled(part: Part, beam: Beam) -> float:
+    """Return the share of a beam's power that a fiber takes: |<mode|beam>|^2, in closed form.
+
+    In front of its collimator the mode is a Gaussian of the radius `mode_radius`, its waist at the origin of the
+    optical frame, along local x; any polarization is taken. Over the plane across the mode both are of the form
+    E exp(i k (r' M r / 2 + b . r)), so that the overlap is that of Gaussians with N = M - conj(M of the mode):
+    2 pi / (k sqrt(det(-i N))) exp(-i k b' N^-1 b / 2). Paraxial, as light that couples is.
+    """
+    axis = part.axes[0]
+    facing = float(beam.along @ axis)
+    if facing < _PARAXIAL:
+        return 0.0
+    came = forward(beam, float((part.origin - beam.at) @ axis) / facing)
+    k = came.wave_number
+    mode = gaussian.from_waist(part.number("mode_radius", "mm", 1.0), came.wavelength / came.index)
+    place = came.frame @ (part.origin - came.at)
+    tilt = came.frame @ axis / facing
+    difference = came.curvature - np.conj(mode)
+    inverse = np.linalg.inv(difference)
+    norm = k**2 * math.sqrt(np.linalg.det(came.curvature.imag) * np.linalg.det(mode.imag)) / math.pi**2
+    size = 2 * math.pi / (k * np.sqrt(np.linalg.det(-1j * difference)))
+    taken: dict[int, np.ndarray[tuple[int], np.dtype[np.complex128]]] = {}
+    for wave in came.waves:
+        # around the middle of the mode: r = place + s
+        slope = wave.shift + came.curvature @ place - tilt
+        phase = place @ came.curvature @ place / 2 + wave.shift @ place - slope @ inverse @ slope / 2
+        amplitude = size * np.exp(1j * k * phase)
+        taken[wave.group] = taken.get(wave.group, np.zeros(3, complex)) + amplitude * wave.field
+    power = norm * sum(float((np.abs(field) ** 2).sum()) for field in taken.values())
+    return min(1.0, power / came.power) if came.power else 0.0

@@ -44,7 +44,7 @@ class Lit:
 
 Tracing = Callable[[Setup, Lit], Audit | None]
 """Tells the verdict on a bench; None where nobody knows it yet, and it is not worth finding out."""
-VERSION = 1
+VERSION = 2
 """Of the rules of the audit; a verdict by others is not believed."""
 MOST = 64
 """So many verdicts stay in memory, the newest."""

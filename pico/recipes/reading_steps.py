@@ -21,7 +21,7 @@ BESIDE = ("as", "name", "retries")
 """Keys that may stand beside any step."""
 OF: Mapping[str, tuple[str, ...]] = {
     "foreach": ("steps",), "if": ("then", "else"), "while": ("most", "steps"), "call": ("with",), "let": (),
-    "assert": ("message",), "scan": ("read",),
+    "assert": ("message",), "scan": ("read", "required"),
 }  # fmt: skip
 """Keys that stand beside the steps of the language itself."""
 
@@ -206,7 +206,17 @@ def _scan(reading: Reading, scope: Scope, body: Node, beside: Mapping[str, Node]
         names |= {column(address): Name("numbers", unit), f"{column(address)}_sigma": Name("numbers", unit)}
     names["part"] = Name("numbers")
     scope.measured |= measured.keys()
-    return Scan(**common, over=over, of=of, binds=_bind(reading, scope, beside.get("as"), "scan", names), names=names)
+    required = _required(reader, scope, beside.get("required"))
+    binds = _bind(reading, scope, beside.get("as"), "scan", names)
+    return Scan(**common, over=over, of=of, binds=binds, names=names, required=required)
+
+
+def _required(reader: Reader, scope: Scope, node: Node | None) -> bool:
+    """Whether a scan fails at a point without a value: that is written out."""
+    term = literal(True) if node is None else reader.flag(scope, node, "required")
+    if node is not None and not (term.known and isinstance(term.literal, bool)):
+        reader.wrong(node, "type", "`required` of a scan is true or false, written out")
+    return term.literal is not False
 
 
 def _inside(reading: Reading, scope: Scope, beside: Mapping[str, Node], key: str, at: str) -> tuple[Step, ...]:

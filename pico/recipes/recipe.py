@@ -96,12 +96,14 @@ class Each(Step):
 @dataclass(frozen=True)
 class Scan(Step):
     """Tunables are set to each value of a list, or each combination of several, and measurables measured there.
-    `binds`: the name of what it finds; `names`: its columns."""
+    `binds`: the name of what it finds; `names`: its columns. `required`: it fails where a measurable has no value;
+    else that point is left out of the columns."""
 
     over: Mapping[str, Term] = field(default_factory=dict)
     of: tuple[str, ...] = ()
     binds: str = ""
     names: Mapping[str, Name] = field(default_factory=dict)
+    required: bool = True
 
 
 @dataclass(frozen=True)

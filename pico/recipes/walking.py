@@ -214,17 +214,19 @@ class _Walker:
             return {}
         turns = self.combined(step, lists)
         rows: list[dict[str, float]] = []
-        point, taken, part = dict[str, Any](), 0, 0.0
+        point, last, taken, part = dict[str, Any](), dict[str, float](), 0, 0.0
         for n, values in enumerate(turns):
             self.count(step)
             before, point = point, dict(zip(step.over, values, strict=True))
             self.enter(Entered(path, step, depth, point, (n + 1, len(turns))))
             told = yield from self.point(step, point, f"{path}[{n + 1}]", depth)
-            if rows and told.get("taken_up", 0) > taken:
+            if last and told.get("taken_up", 0) > taken:
                 again = yield from self.point(step, before, f"{path}[{n + 1}].again", depth)
-                part += apart(rows[-1], row(again))
+                part += apart(last, row(again))
             taken = told.get("taken_up", 0)
-            rows.append({**{column(a): v for a, v in point.items()}, **row(told), "part": part})
+            last = {**{column(a): v for a, v in point.items()}, **row(told), "part": part}
+            if step.required or all(one.get("value") is not None for one in told.get("measured", {}).values()):
+                rows.append(last)
         found = columns(rows)
         for name in step.names if step.binds else ():
             names.give(f"{step.binds}.{name}", found.get(name, UNKNOWN if self.ahead else []))
@@ -235,7 +237,7 @@ class _Walker:
         told: Told = {}
         asked = (
             ("set", values, ", ".join(f"{a}: {v:g}" for a, v in values.items())),
-            ("measure", {"of": step.of}, ", ".join(step.of)),
+            ("measure", {"of": step.of} | ({} if step.required else {"required": False}), ", ".join(step.of)),
         )
         for kind, given, title in asked:
             act = Act(at=step.at, title=f"{kind} {title}", source=step.source, retries=step.retries, kind=kind)

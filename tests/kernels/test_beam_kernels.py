@@ -104,10 +104,21 @@ def test_pixels_that_overflow_below_full_scale_are_full() -> None:
     assert measured("power", cut).unknown == f"{full} of {400 * 480} pixels read 2600"
 
 
-@pytest.mark.parametrize("text", ["centroid", "d4sigma", "gaussian_fit", "power", "background | centroid"])
+@pytest.mark.parametrize("text", ["centroid", "d4sigma", "gaussian_fit", "background | centroid"])
 def test_where_there_is_no_light_nothing_is_made_up(text: str) -> None:
     found = [measured(text, picture(replace(ROUND, peak=0), SHAPE, seed)) for seed in range(5)]
     assert {f.unknown for f in found} == {"there is no light above the background"}
+
+
+@pytest.mark.parametrize("kernel", ["power", "peak"])
+def test_no_light_is_a_number_with_its_deviation(kernel: str) -> None:
+    found = [measured(kernel, picture(replace(ROUND, peak=0), SHAPE, seed)) for seed in range(40)]
+    off = [f.value[kernel] / f.sigma[kernel] for f in found]
+    assert not any(f.unknown for f in found) and max(map(abs, off)) < 6
+    if kernel == "power":
+        assert 0.7 < np.sqrt(np.mean(np.square(off))) < 1.35
+        faint = np.pi * 80 * 80 / 8  # a beam of one count at its peak
+        assert found[0].sigma["power"] < faint / 5
 
 
 @pytest.mark.parametrize("text", ["centroid", "d4sigma", "power"])

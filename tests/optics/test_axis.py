@@ -278,6 +278,6 @@ def test_a_head_that_is_declared_to_end_beams_is_no_bad_end_and_two_arms_are_one
     parts = {n: ComponentState(pose=p, values={"emission": True} if n == "source0" else {}) for n, p in at.items()}
     state, own = LabState(lab="light", components=parts), {name: setup.lab.inventory[name] for name in at}
     back = [d.summary for d in stray_beams(replace(setup, lab=replace(setup.lab, inventory=own)), state)]
-    assert back == ["the beam of source0 comes back to it at (160, 600)"]
+    assert back == ["the beam of source0 comes back to it at (160, 600) (2 beams)"]
     own["source0"] = replace(own["source0"], ends_beams=True)
     assert stray_beams(replace(setup, lab=replace(setup.lab, inventory=own)), state) == ()

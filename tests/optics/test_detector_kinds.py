@@ -12,9 +12,9 @@ from light_benches import kind, light, setup_of
 
 from pico.model.pose import Pose
 from pico.optics.axis import axis_of
-from pico.optics.coupling import coupled
 from pico.optics.instruments import balanced_reading
 from pico.optics.light import Light
+from pico.optics.offsets import coupled
 from pico.optics.spectrum import channels, density, middle, recorded
 
 LASER = Pose(100, 400)  # its exit at x = 160

@@ -159,7 +159,7 @@ def lens_of(given_lens: tuple[float, float | None, float, float, float]) -> Part
 def test_a_ray_finds_its_way_back_through_a_real_lens(
     given_lens: tuple[float, float | None, float, float, float], off: tuple[float, float], slope: tuple[float, float]
 ) -> None:
-    faces = surfaces(part := lens_of(given_lens), part.optic.radius)
+    faces = surfaces(part := lens_of(given_lens), part.optic.radius, 632.8)
     screen = Surface(np.array([180.0, 0, 70]), np.array([1.0, 0, 0]))
     begun = rays([[0, 3 * off[0], 70 + 3 * off[1]]], [[1, 0.02 * slope[0], 0.02 * slope[1]]])
     there = trace([*faces, screen], begun)
@@ -183,7 +183,7 @@ def test_a_beam_finds_its_way_back_through_a_real_lens(
     given_lens: tuple[float, float | None, float, float, float], jones: tuple[float, float, float, float]
 ) -> None:
     """Backwards in time a field is its conjugate: M becomes -conj M, and runs back to where it came from."""
-    faces = surfaces(part := lens_of(given_lens), part.optic.radius)
+    faces = surfaces(part := lens_of(given_lens), part.optic.radius, 632.8)
     begun = raised(beam_with(jones))
     there: Beam | None = begun
     for face in faces:

@@ -184,7 +184,7 @@ def test_the_table_of_elements_names_all_that_light_reads() -> None:
 def test_light_that_is_sent_back_finds_its_way(name: str, yaw: float) -> None:
     from dataclasses import replace
 
-    from pico.optics.light import element
+    from pico.optics.following import element
 
     found = bench(name, Pose(400, 400, yaw), polarization=0.0, extinction=None, transmission=1.0)
     first, behind, part = found.crossings[0].beam, found.crossings[1].beam, found.parts["x"]

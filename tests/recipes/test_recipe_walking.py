@@ -66,6 +66,26 @@ def test_a_scan_that_was_cut_short_measures_its_last_point_again_and_is_split_wh
     assert found["part"] == [0, 0, 0] and len(asks) == 6
 
 
+@pytest.mark.parametrize("late", [False, True])
+def test_a_scan_that_is_not_required_leaves_out_points_without_a_value(late: bool) -> None:
+    def answer(ask: Ask) -> Mapping[str, Any]:
+        if ask.step is None or ask.step.kind == "set":
+            return {}
+        assert ask.given["required"] is False
+        point = ask.path.partition(".")[0]
+        value = {"1[1]": 0.0, "1[2]": None, "1[3]": 2.0}[point]
+        taken = {"taken_up": 1} if late and point == "1[3]" else {}
+        return {"measured": {"cam.power": {"value": value, "sigma": None if value is None else 0.5}}, **taken}
+
+    _, found = asked(right(SCAN.replace("as: s", "as: s, required: false")), answer)
+    assert found == {"at": [1, 3], "power": [0, 2], "off": [0.5] * 2, "part": [0, 0]}
+
+
+def test_whether_a_scan_is_required_is_written_out() -> None:
+    _, wrong = read(SCAN.replace("as: s", "as: s, required: 1 > 2"))
+    assert [one.partition(": ")[2] for one in wrong] == ["type: `required` of a scan is true or false, written out"]
+
+
 def test_names_of_the_bench_are_asked_for_as_they_are_then() -> None:
     recipe = right("steps:\n- if: p1.angle > 45\n  then: [{set: {p1.angle: 0}}]\n  else: [{set: {p1.angle: 90}}]\n")
     asks, _ = asked(recipe, lambda ask: {"p1.angle": 50.0} if ask.names else {})

@@ -14,7 +14,7 @@ from pico.backends.hardware.pictures import grayed
 from pico.backends.hardware.powers import Values, color_at, power_reading, read_as
 from pico.backends.measured import Reading, measurement
 from pico.diagnostics import PicoError, error
-from pico.kernels.frame import full_pixels
+from pico.kernels.frame import saturated
 from pico.kernels.measured import computed, version
 from pico.kernels.pipeline import parsed
 from pico.model.instruments.readout import unknown
@@ -89,15 +89,14 @@ class Readers:
             bits=round(kind.number("bit_depth", "bit") or 12), full_well=kind.number("full_well", "") or 1e4,
             read_noise=kind.number("read_noise", "") or 0.0, black=kind.number("black_level", "count") or 0.0,
         )  # fmt: skip
-        gain, (full, level) = own.get("gain", 0.0), full_pixels(counts, sensor.full_scale)
+        gain = own.get("gain", 0.0)
         settings: dict[str, Value] = {
             "exposure": own.get("exposure", 1.0), "gain": gain, "pixel_size": sensor.pitch,
             "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
             "electrons_per_count": sensor.electrons_per_count(gain),
         }  # fmt: skip
-        said = f"{full} of {counts.size} pixels read {level:g}" if full else ""
         values = {"peak": float(counts.max()), "mean": float(counts.mean())}
-        return Reading(values, counts, settings=settings, saturated=said)
+        return Reading(values, counts, settings=settings, saturated=saturated(counts, sensor.full_scale))
 
     def _reader(self, component: str, name: str, values: Values = _NOTHING) -> Callable[[], Awaitable[Reading]] | None:
         """Return what reads a measurable; None where nothing does."""
@@ -175,8 +174,10 @@ class Readers:
             readout = unknown("W", "wavelength", why=exc.diagnostics[0].summary)
         if own is not None and before is not None and before.status == "known" and before.value is not None:
             await own.set(before.value)  # a measurement leaves the set-points of the lab as they were
-        responds = self._setup.type_of(component).tunables.get("wavelength")
-        return power_reading(readout, color, metered.conversion, responds)
+        kind = self._setup.type_of(component)
+        responds, sensor = kind.tunables.get("wavelength"), kind.parameters.get("sensor")
+        material = "" if sensor is None else str(sensor.value)
+        return power_reading(readout, color, metered.conversion, responds, material)
 
     async def _computed(self, component: str, name: str) -> Reading:
         kernel = self._kernel(component, name)
@@ -186,4 +187,5 @@ class Readers:
         return replace(
             base, array=base.array if name == kernel else None, value=found.value, sigma=found.sigma, kernel=kernel,
             kernel_version=version(pipeline), unknown=found.unknown, unit=found.unit,
+            remark=found.remark,
         )  # fmt: skip

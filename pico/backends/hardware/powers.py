@@ -10,6 +10,7 @@ from pico.drivers.judging import same_wavelength
 from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.readout import Readout, unknown
+from pico.model.materials.response import blind, ratio
 from pico.model.pose import Pose
 from pico.model.quantities import Value
 from pico.model.setup import Setup
@@ -65,10 +66,12 @@ def _wavelength(setup: Setup, values: Values, name: str) -> float | None:
     return setup.type_of(name).number("wavelength", "nm")
 
 
-def power_reading(readout: Readout, color: Color, conversion: Conversion, responds: Tunable | None = None) -> Reading:
+def power_reading(
+    readout: Readout, color: Color, conversion: Conversion, responds: Tunable | None = None, sensor: str = ""
+) -> Reading:
     """Return what a meter's readout is in the lab's unit. `responds`: the tunable of the meter's type that tells for
-    which wavelengths it is calibrated."""
-    found, doubt = corrected(readout, color, responds)
+    which wavelengths it is calibrated; `sensor`: the material of its detector."""
+    found, doubt = corrected(readout, color, responds, sensor)
     reading = read_as(found, conversion)
     return reading if reading.unknown else replace(reading, saturated="", conditions={"wavelength": doubt})
 
@@ -83,20 +86,35 @@ def read_as(readout: Readout, conversion: Conversion) -> Reading:
     return Reading(conversion.to_lab(float(readout.value)), sigma=sigma)
 
 
-def corrected(readout: Readout, color: Color, responds: Tunable | None) -> tuple[Readout, str]:
-    """Return a readout, unknown if its error by the wavelength can't be bounded, and else what is not assured of the
-    wavelength, with the factor; '' if the meter reads back the wavelength of the light."""
+def corrected(readout: Readout, color: Color, responds: Tunable | None, sensor: str = "") -> tuple[Readout, str]:
+    """Return a readout, unknown if its detector is blind or its error by the wavelength can't be bounded; and what is
+    not assured of the wavelength, with the factor, '' if the meter reads back the wavelength of the light."""
+    at = readout.settings.get("wavelength")
     if readout.unknown is not None:
         return readout, ""
     if color.wavelength is None:
         return readout, f"the wavelength of the light is unknown: {color.why}"
-    at = readout.settings.get("wavelength")
+    if sensor and blind(sensor, color.wavelength):
+        why = f"the detector is blind to the light: {sensor} sees nothing at {color.wavelength:g} nm"
+        return _unknown(readout, why), ""
     if not isinstance(at, int | float) or isinstance(at, bool):
         return readout, f"the meter can't be set to the {color.wavelength:g} nm of the light"
-    if same_wavelength(at, color.wavelength):
+    return _elsewhere(readout, float(at), color.wavelength, responds, sensor)
+
+
+def _elsewhere(
+    readout: Readout, at: float, wavelength: float, responds: Tunable | None, sensor: str
+) -> tuple[Readout, str]:
+    """The same of a meter that is set `at` one wavelength, in light of another [nm]."""
+    if same_wavelength(at, wavelength):
         return readout, ""
-    said = f"the meter reads back {at:g} nm, and the light has {color.wavelength:g} nm"
+    said = f"the meter reads back {at:g} nm, and the light has {wavelength:g} nm"
     spans = responds.range if responds is not None else None
-    if spans is None or not all(spans[0] <= one <= spans[1] for one in (at, color.wavelength)):
-        return replace(unknown(readout.unit, "wavelength", readout.raw, said), settings=readout.settings), ""
-    return readout, f"{said}: multiply by about {at / color.wavelength:.3g}, for equal quantum efficiency"
+    if spans is None or not all(spans[0] <= one <= spans[1] for one in (at, wavelength)):
+        return _unknown(readout, said), ""
+    by, head = ratio(sensor, wavelength, at), f"a head of {sensor}" if sensor else "equal quantum efficiency"
+    return (readout, f"{said}: multiply by about {1 / by:.3g}, for {head}") if by else (_unknown(readout, said), "")
+
+
+def _unknown(readout: Readout, why: str) -> Readout:
+    return replace(unknown(readout.unit, "wavelength", readout.raw, why), settings=readout.settings)

@@ -12,7 +12,7 @@ from pico.backends.attempt import Failed
 from pico.backends.hardware.failing import failed
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.measured import Reading
-from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
+from pico.backends.ranging import MOST, Taken, in_vain, next_exposure, taken
 from pico.diagnostics import PicoError, error
 from pico.model.diff import value_distance
 from pico.model.instruments.kind import Driven
@@ -58,7 +58,7 @@ async def ranged(
         found = await image(name)
         assert found.array is not None  # it is a picture
         black, full = (float(found.settings[k] or 0.0) for k in ("black_level", "full_scale"))
-        frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
+        frames.append(taken(exposure, found.array, black, full))
         tell({"fraction": len(frames) / MOST, "phase": "exposing"})
         wanted = next_exposure(frames[-1], limits)
         if wanted is None:

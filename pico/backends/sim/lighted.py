@@ -6,13 +6,18 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from pico.backends.measured import Reading
 from pico.backends.sim.cameras import lamps
 from pico.backends.sim.readings import Table
 from pico.backends.sim.world import WorldBody
 from pico.geometry.seat import Seat
+from pico.model.measurement import Condition
 from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.optics.unseen import SEEN, Unseen
+
+_COUNTS = 1e-3
+"""The share of the light on a detector from which that counts to which it is blind."""
 
 if TYPE_CHECKING:
     from pico.optics.light import Arrival, Light
@@ -29,6 +34,42 @@ def alone(arrivals: tuple[Arrival, ...]) -> str:
     sources = [a.beam.source for a in arrivals]
     twice = next((source for source in sources if sources.count(source) > 1), "")
     return f"several beams of {twice} come there at once, and how they interfere in it is not modelled" if twice else ""
+
+
+def uncertain(light: Light, component: str) -> Reading | None:
+    """Return the reading of a detector to which light may come that was not followed to its end; None for any other."""
+    why = light.unfollowed(component)
+    return Reading(None, unknown=why, reason="cut-trace") if why else None
+
+
+def sightless(light: Light, component: str) -> Reading | None:
+    """Return the reading of a detector that is blind to light which comes to it; None for any other."""
+    from pico.model.materials.ranges import sees_nothing
+
+    arrivals, part = light.at(component), light.parts[component]
+    total = sum(a.power for a in arrivals)
+    for one in arrivals:
+        if one.power > _COUNTS * total and (why := sees_nothing(part.kind, one.wavelength)):
+            return Reading(
+                None, unknown=f"{component} is blind to the light of {one.beam.source}: {why}", reason="wavelength"
+            )
+    return None
+
+
+def unset(light: Light, component: str) -> Mapping[Condition, str]:
+    """Return what is assured of the wavelength that a meter is set to: why it is not, with the factor; none of a
+    detector that is not told one, or without light."""
+    part, arrivals = light.parts[component], light.at(component)
+    if "wavelength" not in part.kind.tunables or not arrivals:
+        return {}
+    from pico.optics.instruments import relative
+
+    found = {a.wavelength: relative(part, a.wavelength) for a in arrivals}
+    set_to = part.value("wavelength", "nm", next(iter(found)))
+    wrong = [(of, by) for of, by in found.items() if abs(of - set_to) > part.kind.tunables["wavelength"].tolerance]
+    said = [f"{component} is set to {set_to:g} nm, and the light has {of:g} nm: multiply by about {1 / by:.3g}"
+            for of, by in wrong if by > 0]  # fmt: skip
+    return {"wavelength": "; ".join(said)}
 
 
 def light_on(table: Table) -> Light:

@@ -17,7 +17,7 @@ from pico.backends.by_sight import BySight
 from pico.backends.device import Began
 from pico.backends.halting import sooner, way_out
 from pico.backends.pushed import pushed, with_pushed
-from pico.backends.ranging import MOST, Taken, brightest, in_vain, level_of, next_exposure
+from pico.backends.ranging import MOST, Taken, in_vain, next_exposure, taken
 from pico.backends.routines import asked_of
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.checks import refused, shut
@@ -228,7 +228,7 @@ class WorldSession:
             found = measurer.read(Table(self._setup, self._place, light), name, "image")
             assert found.array is not None
             black, full = (float(found.settings[k]) for k in ("black_level", "full_scale"))
-            frames.append(Taken(exposure, level_of(brightest(found.array), black, full)))
+            frames.append(taken(exposure, found.array, black, full))
             self._tell("operation_progress", operation, key, {"fraction": len(frames) / MOST, "phase": "exposing"})
             wanted = next_exposure(frames[-1], limits)
             if wanted is None:

@@ -33,9 +33,9 @@ class Readings:
 
     def dark(self, wanted: Quantity) -> bool:
         """Return whether a quantity was not read for want of light."""
-        from pico.kernels.spot import DARK as NO_LIGHT
+        from pico.kernels.start import is_dark
 
-        return self.why(wanted) == NO_LIGHT
+        return is_dark(self.why(wanted))
 
     def got(self, wanted: Quantity) -> Got | None:
         """Return a quantity as it was read; None where it was not."""

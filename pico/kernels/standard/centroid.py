@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Result
 
-KERNEL = Declaration(version="1", takes="image", units={"x": "um", "y": "um"})
+KERNEL = Declaration(version="2", takes="image", units={"x": "um", "y": "um"})
 
 
 def apply(given: Frame, parameters: Mapping[str, float]) -> Result:

@@ -8,7 +8,7 @@ from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Result
 
 KERNEL = Declaration(
-    version="1", takes="image", units={"major": "um", "minor": "um", "angle": "deg", "ellipticity": "1"}
+    version="2", takes="image", units={"major": "um", "minor": "um", "angle": "deg", "ellipticity": "1"}
 )
 
 

@@ -9,7 +9,7 @@ from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Result
 
 KERNEL = Declaration(
-    version="1",
+    version="2",
     takes="image",
     units={"x": "um", "y": "um", "major": "um", "minor": "um", "angle": "deg", "peak": "count"},
 )
@@ -22,7 +22,7 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Result:
 
     from pico.kernels.ellipse import ellipse
     from pico.kernels.gaussian import fitted
-    from pico.kernels.spot import leaving
+    from pico.kernels.spot import leaving, too_narrow
 
     fit = fitted(given)
     if isinstance(fit, str):
@@ -31,6 +31,8 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Result:
     column, row, *_ = fit.values[1:]
     if not (-0.5 <= column <= w - 0.5 and -0.5 <= row <= h - 0.5):
         return Result(unknown=leaving(fit.values[1:], (h, w)) or "the fit lies outside of the frame")
+    if fit.narrow:
+        return Result(unknown=too_narrow(fit.values[1:]))
     axes = ellipse(fit.values[3:], fit.covariance[3:6, 3:6])
     scale = np.array([4 * given.pixel_size, 4 * given.pixel_size, 1.0])
     spread = np.sqrt(np.diag(fit.covariance)[:3]).tolist()

@@ -9,7 +9,7 @@ from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Parameter, Result
 
 KERNEL = Declaration(
-    version="1",
+    version="2",
     takes="image",
     units={"overlap": "1"},
     parameters={"radius": Parameter("um", least=0.0), "x": Parameter("um", 0.0), "y": Parameter("um", 0.0)},
@@ -29,7 +29,7 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Result:
         return Result(unknown=beam)
     top, bottom, left, right = beam.box
     signal = given.signal
-    light = (signal - beam.background.over(signal.shape))[top:bottom, left:right].astype(np.float64)
+    light = (signal - beam.behind((signal.shape[0], signal.shape[1])))[top:bottom, left:right].astype(np.float64)
     columns, rows = np.arange(left, right), np.arange(top, bottom)
     x = (columns - (signal.shape[1] - 1) / 2) * given.pixel_size - parameters["x"]
     y = ((signal.shape[0] - 1) / 2 - rows) * given.pixel_size - parameters["y"]

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pico.kernels.frame import Frame
 from pico.kernels.kernel import Declaration, Result
 
-KERNEL = Declaration(version="1", takes="image", units={"visibility": "1", "period": "um", "angle": "deg"})
+KERNEL = Declaration(version="2", takes="image", units={"visibility": "1", "period": "um", "angle": "deg"})
 _FEWEST = 3.0
 """Fringes across the light below which they can't be told from the beam's own shape."""
 _SIGNIFICANT = 7.0

@@ -10,6 +10,8 @@ from pico.diagnostics import Diagnostic, SourceRange, did_you_mean, error
 from pico.manifest.text.places import where
 from pico.manifest.text.tree import Document
 from pico.model.catalog import ComponentType
+from pico.model.materials.glass import GLASSES
+from pico.model.materials.response import SENSORS
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +42,7 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "focal_length": Bounds("mm", zero=False), "radius_of_curvature": Bounds("mm", zero=False),
         "radius_of_curvature_back": Bounds("mm", zero=False), "center_thickness": Bounds("mm", 0, 1e3),
         "refractive_index": _INDEX, "transmission": _SHARE, "cylinder_axis": Bounds("deg"),
+        "design_wavelength": Bounds("nm", 10, 1e5),
     },
     "mirror": {
         "reflectance": _SHARE, "transmittance": _SHARE, "retardance": Bounds("deg"), "refractive_index": _INDEX,
@@ -72,7 +75,10 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     },
     "prism": {"edge": _LENGTH, "refractive_index": Bounds("", 1, 10), "transmission": _SHARE},
     "wollaston": {"divergence": Bounds("deg", 0, 60), "extinction": Bounds("", 1), "transmission": _SHARE},
-    "isolator": {"transmission": _SHARE, "isolation": Bounds("dB", 0, 120), "output": Bounds("deg")},
+    "isolator": {
+        "transmission": _SHARE, "isolation": Bounds("dB", 0, 120), "output": Bounds("deg"),
+        "design_wavelength": Bounds("nm", 300, 1e4),
+    },
     "polarizer": {
         "extinction": Bounds("", 1), "transmission": _SHARE, "refractive_index": _INDEX,
         "thickness": Bounds("mm", 0, 1e3),
@@ -83,6 +89,7 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
     },
     "beam_splitter": {
         "reflectance": _SHARE, "transmittance": _SHARE, "extinction": Bounds("", 1), "fold": Bounds("deg"),
+        "reflected_extinction": Bounds("", 1),
     },
     "filter": {
         "optical_density": Bounds("", 0, 20), "transmission": _SHARE,
@@ -98,19 +105,19 @@ NUMBERS: Mapping[str, Mapping[str, Bounds]] = {
         "greatest_power": Bounds("mW", 1e-12), "uncertainty": _SHARE, "active_diameter": _LENGTH,
         "separation": Bounds("mm", 0.1, 1e3), "rejection": Bounds("dB", 0, 120),
         "mode_radius": Bounds("mm", 1e-3, 100), "transmission": _SHARE, "electrons_per_count": Bounds("", 1e-6, 1e9),
-        "resolution": Bounds("nm", 1e-6, 1e3), "shortest": Bounds("nm", 10, 1e5), "longest": Bounds("nm", 10, 1e5),
+        "resolution": Bounds("nm", 1e-6, 1e3), "design_wavelength": Bounds("nm", 10, 1e5),
         "channels": Bounds("", 2, 1e5), "sensitivity": Bounds("count/nJ", 1e-12),
     },
 }  # fmt: skip
 """The numbers of a type that light is computed from, by its element."""
 ANYWHERE: Mapping[str, Bounds] = {
     "clear_diameter": _LENGTH, "stray_irradiance": Bounds("nW/mm^2", 0), "face_reflectance": _SHARE,
-    "damage_threshold": Bounds("mW/mm^2", 1e-9),
+    "damage_threshold": Bounds("mW/mm^2", 1e-9), "shortest": Bounds("nm", 10, 1e5), "longest": Bounds("nm", 10, 1e5),
 }  # fmt: skip
 """Those of a type of any element."""
 WORDS: Mapping[tuple[str, str], tuple[str, ...]] = {
     ("polarizer", "substrate"): ("film", "ar_glass", "glass"), ("polarizer", "rejected"): ("absorbed", "reflected"),
-    ("lens", "form"): ("plano", "bi"),
+    ("lens", "form"): ("plano", "bi"), ("lens", "glass"): tuple(GLASSES), ("detector", "sensor"): SENSORS,
 }  # fmt: skip
 
 

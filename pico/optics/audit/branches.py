@@ -9,7 +9,8 @@ from pico.model.arming import LaserClass
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.audit.findings import Finding, Kind
-from pico.optics.light import Crossing, Light
+from pico.optics.following import Crossing
+from pico.optics.light import Light
 from pico.optics.part import Part
 
 

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 
 from pico.optics.audit.branches import Branches
 from pico.optics.audit.findings import Finding
-from pico.optics.light import Crossing
+from pico.optics.following import Crossing
 
 UNIT = "mW/mm^2"
 

@@ -15,7 +15,7 @@ import numpy as np
 from pico.optics.audit.branches import Branches, spot
 from pico.optics.audit.findings import Finding
 from pico.optics.beam import forward
-from pico.optics.light import Crossing
+from pico.optics.following import Crossing
 from pico.optics.part import Part, within
 
 PUPIL = 7.0

@@ -9,7 +9,7 @@ from typing import Any, TypeGuard
 from pico.model.arming import CLASSES, LaserClass
 from pico.model.quantities import convert
 from pico.model.setup import Setup
-from pico.optics.audit.limits import VISIBLE, class_of
+from pico.optics.audit.limits import EDGES, class_of
 from pico.optics.axis import Values
 
 
@@ -46,7 +46,7 @@ def _may_be(
     setup: Setup, laser: str, values: Mapping[str, Any], name: str, unit: str, otherwise: float
 ) -> tuple[float, ...]:  # fmt: skip
     """Return what a property of a laser may be, in a unit: one value if it is known, else the ends of its range and
-    what lies just beyond the visible."""
+    of wavelengths those at which limits change, from either side."""
     kind, own = setup.type_of(laser), values.get(name)
     tunable, found = kind.tunables.get(name), kind.number(name, unit)
     if tunable is None:
@@ -58,8 +58,11 @@ def _may_be(
         else float(n)
         for n in numbers
     )
-    beyond = math.nextafter(VISIBLE[1], math.inf)
-    return (*known, beyond) if name == "wavelength" and min(known) < beyond < max(known) else known
+    if name != "wavelength":
+        return known
+    inside = (edge for edge in EDGES if min(known) <= edge <= max(known))
+    sides = (near for edge in inside for near in (math.nextafter(edge, 0), edge, math.nextafter(edge, math.inf)))
+    return (*known, *(near for near in sides if min(known) < near < max(known)))
 
 
 def _number(value: object) -> TypeGuard[float]:

@@ -1,26 +1,37 @@
 """How much light is how dangerous: the classes of lasers by power and wavelength.
 
-Accessible emission limits of continuous beams that are looked into for longer than 10 s, from a small source, after
-IEC 60825-1 (to be checked against a copy of the standard by whoever owns one):
+Accessible emission limits of continuous beams that are looked into for longer than 10 s (ultraviolet: 30000 s), from a
+small source, after tables 3 to 8 of IEC 60825-1:2014 (to be checked against a copy of the standard by whoever
+owns one). Where a photochemical and a thermal limit hold, or editions differ, the lower one counts. w: wavelength [nm].
 
-| class | 400 to 700 nm | 700 to 1050 nm |
-|---|---|---|
-| 1 | 0.39 mW | 0.39 mW x C4, C4 = 10^(0.002 (wavelength in nm - 700)) |
-| 2 | 1 mW | there is none: nobody blinks at what they do not see |
-| 3R | 5 mW | five times class 1 |
-| 3B | 500 mW | 500 mW |
+| w [nm] | class 1 | class 3R | class 3B |
+|---|---|---|---|
+| 180 to 302.5 | 0.79 nW (30 J/m2 through 1 mm in 30000 s) | 5 x class 1 | 1.5 mW |
+| 302.5 to 315 | 0.026 nW x C2, C2 = 10^(0.2 (w - 295)), 7.9 uW at most | 5 x class 1 | 50 uW x C2, 500 mW at most |
+| 315 to 400 | 7.9 uW | 5 x class 1 | 500 mW |
+| 400 to 500 | 0.039 mW x C3, C3 = 10^(0.02 (w - 450)), 1 or more; 0.39 mW at most | 5 mW | 500 mW |
+| 500 to 700 | 0.39 mW | 5 mW | 500 mW |
+| 700 to 1050 | 0.39 mW x C4, C4 = 10^(0.002 (w - 700)) | 5 x class 1 | 500 mW |
+| 1050 to 1400 | 1.95 mW x C7; C7 = 1 to 1150, 10^(0.018 (w - 1150)) to 1200, then 8 | 5 x class 1 | 500 mW |
+| 1400 to 10600 | 10 mW; beyond 4000 9.6 mW (1000 W/m2 through 3.5 mm) | 5 x class 1 | 500 mW |
 
-Pulses, extended sources and other wavelengths are not in it: there no limit is known here, any laser counts as class 4,
-and any branch of it as dangerous.
+Class 2, from 400 to 700 nm alone, ends at 1 mW: nobody blinks at what they do not see. Pulses, extended sources and
+other wavelengths are not in it: there no limit is known here, any laser counts as class 4, and any branch of it as
+dangerous.
 """
 
 from __future__ import annotations
 
 from pico.model.arming import CLASSES, LaserClass, within
 
-VISIBLE, KNOWN = (400.0, 700.0), (400.0, 1050.0)
+VISIBLE, KNOWN = (400.0, 700.0), (180.0, 10600.0)
 """Wavelengths that an eye turns away from, and those for which a limit is known here [nm]."""
+EDGES = (302.5, 315.0, 400.0, 450.0, 500.0, 700.0, 1050.0, 1150.0, 1200.0, 1400.0, 4000.0)
+"""Wavelengths at which the limits change their law: of a range the most dangerous one is one of these, or an end."""
 _CLASS_1, _CLASS_2, _VISIBLE_3R, _CLASS_3B = 0.39, 1.0, 5.0, 500.0  # mW
+_ULTRAVIOLET = 30 * 7.85e-7 / 3e4 * 1e3
+"""30 J/m2 through an aperture of 1 mm in 30000 s [mW]."""
+_NEAR_ULTRAVIOLET = 7.9e-3  # mW
 _ROUNDING = 1e-9
 
 
@@ -28,7 +39,30 @@ def class_1(wavelength: float) -> float | None:
     """Return the limit of class 1 [mW] at a wavelength in vacuum [nm]; None where none is known here."""
     if not KNOWN[0] <= wavelength <= KNOWN[1]:
         return None
-    return _CLASS_1 * 10 ** (0.002 * max(0.0, wavelength - VISIBLE[1]))
+    if wavelength < VISIBLE[0]:
+        return _in_ultraviolet(wavelength)
+    if wavelength < 500.0:
+        return min(_CLASS_1, 0.1 * _CLASS_1 * 10 ** (0.02 * max(0.0, wavelength - 450.0)))
+    if wavelength <= 1050.0:
+        return _CLASS_1 * 10 ** (0.002 * max(0.0, wavelength - VISIBLE[1]))
+    if wavelength <= 1400.0:
+        return 5 * _CLASS_1 * (8.0 if wavelength >= 1200 else 10 ** (0.018 * max(0.0, wavelength - 1150.0)))
+    return 10.0 if wavelength <= 4000.0 else 9.6
+
+
+def _in_ultraviolet(wavelength: float) -> float:
+    if wavelength <= 302.5:
+        return _ULTRAVIOLET
+    if wavelength <= 315.0:
+        return min(_NEAR_ULTRAVIOLET, _ULTRAVIOLET / 30 * 10 ** (0.2 * (wavelength - 295.0)))
+    return _NEAR_ULTRAVIOLET
+
+
+def class_3b(wavelength: float) -> float:
+    """Return the limit of class 3B [mW] at a wavelength in vacuum [nm]."""
+    if wavelength <= 302.5:
+        return 1.5
+    return min(_CLASS_3B, 0.05 * 10 ** (0.2 * (wavelength - 295.0))) if wavelength <= 315.0 else _CLASS_3B
 
 
 def class_of(power: float, wavelength: float) -> LaserClass:
@@ -37,8 +71,10 @@ def class_of(power: float, wavelength: float) -> LaserClass:
     first = class_1(wavelength)
     if first is None:
         return "4"
-    visible = wavelength <= VISIBLE[1]
-    limits = (first, _CLASS_2 if visible else first, _VISIBLE_3R if visible else 5 * first, _CLASS_3B)
+    visible = VISIBLE[0] <= wavelength <= VISIBLE[1]
+    limits = (
+        first, _CLASS_2 if visible else first, _VISIBLE_3R if visible else 5 * first, class_3b(wavelength),
+    )  # fmt: skip
     within = (name for name, limit in zip(CLASSES, limits, strict=False) if power <= limit * (1 + _ROUNDING))
     return next(within, "4")
 

@@ -29,7 +29,8 @@ from pico.optics.audit.branches import Branches
 from pico.optics.audit.ends import ending
 from pico.optics.audit.findings import Finding
 from pico.optics.axis import Values
-from pico.optics.light import Crossing, Light
+from pico.optics.following import Crossing
+from pico.optics.light import Light
 from pico.optics.part import Part
 
 MOST_RISE = 0.015

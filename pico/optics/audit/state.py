@@ -36,4 +36,5 @@ def check_light(read: Manifests) -> tuple[Diagnostic, ...]:
             text = f"the damage threshold of {', '.join(verdict.unjudged)} is unknown: damage is not judged there"
             hint = "a parameter `damage_threshold` of the type, say {value: 5000, unit: mW/mm^2}, off its data sheet"
             found += (Diagnostic("note", "damage-threshold", text, hint=hint, address=verdict.unjudged[0]),)
-    return (*found, *stray_beams(setup, state, ends))
+    strays = (replace(one, source=read.source(one.address)) for one in stray_beams(setup, state, ends))
+    return (*found, *strays)

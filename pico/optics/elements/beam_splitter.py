@@ -14,9 +14,11 @@ from pico.optics.strays import GLASS, astray, face, passing
 
 def meet(part: Part, beam: Beam) -> Met:
     """Divide a beam at the coating. `transmittance` and `reflectance` are shares of the power, of a polarizing one of p
-    and s; there `extinction` is by how much less of s passes, no more of s is sent than is left. What is reflected
-    comes a quarter of a wave later, from either side, as a coating without loss must have it: the field along the
-    coating does, and so p = s x along has the other sign, as at a mirror."""
+    and s; there `extinction` is by how much less of s passes, no more of s is sent than is left, and
+    `reflected_extinction` by how much less of p than of s is sent; without it all p that does not pass is.
+
+    What is reflected comes a quarter of a wave later, from either side, as a coating without loss must have it: the
+    field along the coating does, and so p = s x along has the other sign, as at a mirror."""
     normal = np.array(part.optic.normal)
     came = arrived(part, beam, normal=normal)
     passed, lost = clipped(part, came, part.optic.radius)
@@ -26,7 +28,9 @@ def meet(part: Part, beam: Beam) -> Met:
     shares = (through, through), (back, back)
     if polarizing is not None and polarizing.value is True:
         leaks = through / part.number("extinction", "", math.inf)
-        shares = (leaks, through), (min(back, 1 - leaks), 1 - through)
+        sent_s = min(back, 1 - leaks)
+        pure = part.number("reflected_extinction", "", 0.0)
+        shares = (leaks, through), (sent_s, min(1 - through, sent_s / pure) if pure else 1 - through)
     (t_s, t_p), (r_s, r_p) = ((math.sqrt(s), math.sqrt(max(p, 0.0))) for s, p in shares)
     on = beyond(passed, coating, amplitudes=lambda _: (t_s, t_p))
     sent = beyond(passed, coating, reflect=True, amplitudes=lambda _: (1j * r_s, -1j * r_p))

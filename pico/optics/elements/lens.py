@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pico.model.catalog import ComponentType
+from pico.model.materials.glass import DESIGN, index_at
 from pico.optics import gaussian
 from pico.optics.beam import Beam, Wave, beyond, level, scaled
 from pico.optics.part import Met, Part, arrived, clipped
@@ -16,9 +17,10 @@ from pico.optics.rays import Surface
 from pico.optics.strays import GLASS, astray, face, of_plate
 
 
-def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
-    """Return the two surfaces of a lens with an edge of a radius [mm], that with the lesser local x first; none where
-    its type does not tell `center_thickness`, `refractive_index`, and `radius_of_curvature` or `form`.
+def surfaces(part: Part, edge: float, wavelength: float) -> tuple[Surface, ...]:
+    """Return the two surfaces of a lens with an edge of a radius [mm] for light of a wavelength in vacuum [nm], that
+    with the lesser local x first; none where its type does not tell `center_thickness`, `refractive_index`, and
+    `radius_of_curvature` or `form`.
 
     The parameter is the radius of the side that light along local +x meets first, above 0 where that bulges towards it;
     `radius_of_curvature_back` that of the other, above 0 where that bulges away, flat where it is not given.
@@ -28,12 +30,17 @@ def surfaces(part: Part, edge: float) -> tuple[Surface, ...]:
     radius, back = _radii(kind, thickness, index)
     if radius is None or thickness is None or index is None or "cylinder_axis" in kind.parameters:
         return ()
-    along = part.axes[0]
+    along, index = part.axes[0], refraction(part, index, wavelength)
     half = thickness / 2 * along
     return (
         Surface(part.center - half, along, 1 / radius if radius else 0.0, edge, 1.0, index),
         Surface(part.center + half, along, -1 / back if back else 0.0, edge, index, 1.0),
     )
+
+
+def refraction(part: Part, index: float, wavelength: float) -> float:
+    """Return the index of a lens at a wavelength [nm], of which it has `index` at its `design_wavelength`."""
+    return index_at(part.word("glass", ""), index, part.number("design_wavelength", "nm", DESIGN), wavelength)
 
 
 def _radii(kind: ComponentType, thickness: float | None, index: float | None) -> tuple[float | None, float | None]:
@@ -58,9 +65,10 @@ def meet(part: Part, beam: Beam) -> Met:
     passed, lost = clipped(part, came, part.optic.radius)
     share = math.sqrt(part.number("transmission", "", 1.0))
     # around a chief ray beside the edge there may be light that passes
-    ways = surfaces(part, part.optic.radius + came.widths[0])
+    wavelength = beam.wavelength * 1e6
+    ways = surfaces(part, part.optic.radius + came.widths[0], wavelength)
     if not ways:
-        return Met(came, (scaled(thin(passed, part.center, part.axes[0], power(part)), share),), lost)
+        return Met(came, (scaled(thin(passed, part.center, part.axes[0], power(part, wavelength)), share),), lost)
     behind: Beam | None = scaled(beam, math.sqrt(1 - lost) * share)
     for surface in ways if beam.along @ part.axes[0] > 0 else ways[::-1]:
         behind = beyond(behind, surface) if behind is not None else None
@@ -69,11 +77,15 @@ def meet(part: Part, beam: Beam) -> Met:
     return Met(came, (replace(behind, unknown=passed.unknown),), lost)
 
 
-def power(part: Part) -> Vector:
-    """Return the refractive power (3, 3) [1/mm] of a thin lens: what its change of slope is per distance from its axis.
+def power(part: Part, wavelength: float) -> Vector:
+    """Return the refractive power (3, 3) [1/mm] of a thin lens in light of a wavelength [nm]: what its change of slope
+    is per distance from its axis.
+
     One with the parameter `cylinder_axis` has it only across that line, which is level at 0 deg."""
     _, left, up = part.axes
     strength = 1 / part.number("focal_length", "mm", math.inf)
+    if index := part.kind.number("refractive_index", ""):
+        strength *= (refraction(part, index, wavelength) - 1) / (index - 1) if index != 1 else 1.0
     line = part.kind.number("cylinder_axis", "deg")
     if line is None:
         return strength * (np.outer(left, left) + np.outer(up, up))
@@ -102,7 +114,7 @@ def thin(came: Beam, center: Vector, axis: Vector, bends: Vector) -> Beam:
 
 def strays(part: Part, beam: Beam, met: Met) -> tuple[Beam, ...]:
     """Return what the two faces of a lens send back, and the ghost of both; of a thin one as of a flat plate."""
-    ways = surfaces(part, part.optic.radius + met.came.widths[0])
+    ways = surfaces(part, part.optic.radius + met.came.widths[0], beam.wavelength * 1e6)
     if not ways:
         return of_plate(part, met)
     begun = scaled(beam, math.sqrt(1.0 - met.clipped))

@@ -76,7 +76,7 @@ class Nominal:
                 return None
             light = light or self.light()
             arrivals = light.at(detector)
-            if not arrivals:
+            if not arrivals or light.unfollowed(detector):
                 return None
             found.append(TOLD[number](max(arrivals, key=lambda a: a.power)))
         return np.array(found) if found else None

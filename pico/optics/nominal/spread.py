@@ -92,7 +92,7 @@ def _seen(light: Light, detectors: Collection[str]) -> dict[str, Three]:
     for name in detectors:
         arrivals = light.at(name)
         total = sum(a.power for a in arrivals)
-        if total > 0:
+        if total > 0 and not light.unfollowed(name):
             middle = [sum(a.power * a.center[k] for a in arrivals) / total for k in (0, 1)]
             found[name] = (total, middle[0], middle[1])
     return found

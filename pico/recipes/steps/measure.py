@@ -45,7 +45,7 @@ def plan(doing: Doing, given: Mapping[str, Any]) -> Plan:
 def run(doing: Doing, given: Mapping[str, Any]) -> Mapping[str, Any]:
     """See `pico.recipes.registry.StepFile`."""
     found = doing.run(plan(doing, given))
-    if without := [m for m in found.values() if m.unknown]:
+    if (without := [m for m in found.values() if m.unknown]) and given.get("required", True):
         advice = doing.bench.measurements.advice
         raise PicoError([
             error("unknown", f"{m.address} has no value: {m.unknown}", hint=advice(m), address=m.address)

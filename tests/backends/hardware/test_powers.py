@@ -119,7 +119,7 @@ def test_a_meter_that_stays_at_another_wavelength_is_not_assured_with_the_factor
     assert of(infrared, ENTRY).conditions == {"wavelength": ""}
     beyond = of(with_light(lab, 1550.0), ENTRY)  # the emulated meter refuses what is beyond 1100 nm
     assert (beyond.value, beyond.reason) == (None, "wavelength")
-    assert "635 nm, and the light has 1550 nm" in beyond.unknown
+    assert beyond.unknown == "the detector is blind to the light: silicon sees nothing at 1550 nm"
     fixed = of(infrared, replace(ENTRY, settings={"wavelength": False}))
     assert (
         fixed.value == pytest.approx(1.0, rel=1e-3) and "can't be set to the 1090 nm" in fixed.conditions["wavelength"]
@@ -190,3 +190,16 @@ def test_a_reason_becomes_the_measurements(lab: Setup, tmp_path: Path) -> None:
     assert incomparable(good, of(Reading(1.0, saturated=""))) == ()  # an earlier record knows nothing of it
     doubtful = of(Reading(1.0, saturated="", conditions={"wavelength": "set to 1550 nm"}))
     assert list(incomparable(good, doubtful)) == ["not assured of the second: wavelength (set to 1550 nm)"]
+
+
+def test_the_factor_of_a_known_detector_is_that_of_its_curve_and_a_blind_one_is_unknown() -> None:
+    from pico.backends.hardware.powers import Color, corrected
+    from pico.model.catalog import Tunable
+    from pico.model.instruments.readout import Readout
+
+    readout = Readout(unit="W", value=0.001, settings={"wavelength": 500.0})
+    responds = Tunable(unit="nm", range=(400.0, 1700.0))
+    _, doubt = corrected(readout, Color(633.0), responds, "silicon")
+    assert doubt.endswith("multiply by about 0.734, for a head of silicon")
+    found, doubt = corrected(readout, Color(1550.0), responds, "silicon")
+    assert found.unknown == "wavelength" and "silicon sees nothing at 1550 nm" in found.why and not doubt

@@ -36,11 +36,13 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     if measurer is None:
         raise Failed(not_simulated(component, pipeline.source))
     base = measurer.read(table, component, pipeline.source)
+    if base.array is None and base.unknown:
+        return replace(base, kernel=kernel, kernel_version=version(pipeline))
     if base.array is None:
         raise Failed(error("no-array", f"{component}.{pipeline.source} gives nothing for kernels", address=component))
     found = computed(pipeline, base.array, base.settings)
     return replace(
         base, array=base.array if measurable == kernel else None,
         value=found.value, sigma=found.sigma, kernel=kernel, kernel_version=version(pipeline),
-        unknown=found.unknown, unit=found.unit,
+        unknown=found.unknown, unit=found.unit, remark=found.remark,
     )  # fmt: skip

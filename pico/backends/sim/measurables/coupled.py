@@ -6,7 +6,7 @@ import math
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import Reading
-from pico.backends.sim.lighted import alone, detects, light_on
+from pico.backends.sim.lighted import alone, detects, light_on, uncertain
 from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
@@ -24,12 +24,14 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the power with its standard deviation; unknown where the shape of a beam is."""
     import numpy as np
 
-    from pico.optics.coupling import coupled
+    from pico.optics.offsets import coupled
 
     light = light_on(table)
     part, arrivals = light.parts.get(component), light.at(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    if cut := uncertain(light, component):
+        return cut
     strong = tuple(a for a in arrivals if a.power > SPECK * sum(b.power for b in arrivals))
     why = alone(strong) or next((a.beam.unknown for a in strong if a.beam.unknown), "")
     if not why and any(a.beam.quality > 1 + 1e-9 for a in strong):

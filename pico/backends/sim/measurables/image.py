@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import Reading
-from pico.backends.sim.lighted import detects, light_on, room_light
+from pico.backends.sim.lighted import detects, light_on, room_light, sightless, uncertain
 from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
@@ -22,7 +22,7 @@ def measures(setup: Setup, component: str, measurable: str) -> bool:
 
 def read(table: Table, component: str, measurable: str) -> Reading:
     """Return the frame, with its brightest pixel (`peak`) and its `mean` [counts]."""
-    from pico.kernels.frame import full_pixels
+    from pico.kernels.frame import saturated
     from pico.optics.beam_table import decibel
     from pico.optics.instruments import camera_frame, sensor_of
     from pico.optics.light import out_of_step
@@ -31,6 +31,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     arrivals, part = light.at(component), light.parts.get(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    if none := uncertain(light, component) or sightless(light, component):
+        return none
     dim = SPECK * sum(a.power for a in arrivals)
     if unknown := next((a.beam for a in arrivals if a.beam.unknown and a.power > dim), None):
         text = f"what {component} would see of {unknown.source} is not known: {unknown.unknown}"
@@ -45,7 +47,6 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         number=round(table.world.clock * 1000),
     )  # fmt: skip
     sensor = sensor_of(part)
-    full, level = full_pixels(counts, sensor.full_scale)
     gain = decibel(part.values)
     return Reading(
         {"peak": float(counts.max()), "mean": float(counts.mean())},
@@ -55,5 +56,5 @@ def read(table: Table, component: str, measurable: str) -> Reading:
             "full_scale": sensor.full_scale, "black_level": sensor.black, "read_noise": sensor.read_noise,
             "electrons_per_count": sensor.electrons_per_count(gain),
         },
-        saturated=f"{full} of {counts.size} pixels read {level:g}" if full else "",
+        saturated=saturated(counts, sensor.full_scale),
     )  # fmt: skip

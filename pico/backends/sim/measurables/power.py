@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import Reading
-from pico.backends.sim.lighted import detects, light_on
+from pico.backends.sim.lighted import detects, light_on, sightless, uncertain, unset
 from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
@@ -27,6 +27,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     part = light.parts.get(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    if none := uncertain(light, component) or sightless(light, component):
+        return none
     if why := out_of_step(light.at(component)):
         return Reading(None, unknown=f"what {component} would read is not known: {why}")
     reading = balanced_reading if "separation" in table.setup.type_of(component).parameters else power_reading
@@ -35,4 +37,5 @@ def read(table: Table, component: str, measurable: str) -> Reading:
         unit = table.setup.measurables_of(component)[measurable].unit
         why = f"{found.value:g} {unit} is all that it can tell".replace("  ", " ")
         return Reading(None, saturated=why, unknown=f"saturated: {why}")
-    return Reading(found.value, sigma=found.sigma, noise=found.noise, saturated="")
+    told = unset(light, component)
+    return Reading(found.value, sigma=found.sigma, noise=found.noise, saturated="", conditions=told)

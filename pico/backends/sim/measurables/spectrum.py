@@ -6,7 +6,7 @@ import math
 
 from pico.backends.attempt import Failed
 from pico.backends.measured import Reading
-from pico.backends.sim.lighted import alone, detects, light_on
+from pico.backends.sim.lighted import alone, detects, light_on, sightless, uncertain
 from pico.backends.sim.readings import Table
 from pico.diagnostics import error
 from pico.model.setup import Setup
@@ -26,6 +26,8 @@ def read(table: Table, component: str, measurable: str) -> Reading:
     part, arrivals = light.parts.get(component), light.at(component)
     if part is None:
         raise Failed(error("missing", f"{component} does not stand on the table", address=component))
+    if none := uncertain(light, component) or sightless(light, component):
+        return none
     if why := alone(arrivals):
         return Reading(None, unknown=f"what {component} would see is not known: {why}")
     counts, sigma = recorded(arrivals, part, seed=table.world.seed, number=round(table.world.clock * 1000))

@@ -1,0 +1,1 @@
+"""What materials do with light by wavelength: refractive indices of glasses, responses of detectors."""
