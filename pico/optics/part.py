@@ -192,7 +192,7 @@ def within(beam: Beam, middle: Vector, radius: float) -> float:
 
 def _is_gaussian(beam: Beam) -> bool:
     """Return whether the irradiance of a beam is one Gaussian: no waves of a group are shifted against one another."""
-    first: dict[Any, NDArray[np.float64]] = {}
+    first: dict[Any, NDArray[np.complex128]] = {}
     return all(bool((wave.shift == first.setdefault(wave.group, wave.shift)).all()) for wave in beam.waves)
 
 
