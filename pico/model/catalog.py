@@ -435,6 +435,71 @@ _TRIMS: Mapping[str, float] = {"mirror_tip_tilt": 2, "mirror_fixed": 5, "mirror_
 """What trims of mirrors in the catalog were before they had to take in how mirrors are placed, by type; 12 since."""
 _WIDE_OPEN: Mapping[str, float] = {"iris": 11.5, "slit": 6}
 """Where what opens has its zero since that is within its range: wide open [mm], by type; 0 before."""
+_WAVELENGTHS: Mapping[str, Mapping[str, Value]] = {
+    "faraday_isolator": {"design_wavelength": 633, "longest": 643, "shortest": 623},
+    **{
+        key: {"glass": "N-BK7", "longest": 700, "shortest": 350}
+        for key in [
+            "biconvex",
+            "lens_xyz_stage",
+            "plano_concave",
+            "plano_convex",
+            "plano_convex_100",
+            "plano_convex_100_v_groove",
+            "plano_convex_125",
+            "plano_convex_150",
+            "plano_convex_150_stage",
+            "plano_convex_200",
+            "plano_convex_200_stage",
+            "plano_convex_250",
+            "plano_convex_60",
+            "plano_convex_75",
+        ]
+    },
+    "avalanche_photodiode": {"longest": 1000, "sensor": "silicon", "shortest": 400},
+    "beam_camera": {"longest": 1050, "sensor": "cmos", "shortest": 350},
+    "asphere": {"longest": 1050, "shortest": 600},
+    **{key: {"longest": 1100, "sensor": "silicon", "shortest": 320} for key in ["balanced_detector", "photodiode"]},
+    "bandpass_filter": {"longest": 1100, "shortest": 200},
+    **{
+        key: {"longest": 2000, "shortest": 450}
+        for key in [
+            "concave_mirror",
+            "delay_stage",
+            "mirror_fixed",
+            "mirror_flip",
+            "mirror_tip_tilt",
+            "off_axis_parabola",
+            "piezo_mirror",
+        ]
+    },
+    "glan_polarizer": {"longest": 2300, "shortest": 350},
+    **{key: {"longest": 660, "shortest": 600} for key in ["half_wave_plate", "quarter_wave_plate"]},
+    "polarizing_beam_splitter": {"longest": 680, "reflected_extinction": 20, "shortest": 420},
+    "cylindrical_lens": {"longest": 700, "shortest": 350},
+    **{
+        key: {"longest": 700, "shortest": 400}
+        for key in [
+            "achromat",
+            "beam_expander",
+            "beam_splitter_50_50",
+            "filter_wheel",
+            "neutral_density_filter",
+            "pellicle_beam_splitter",
+            "plate_beam_splitter",
+            "right_angle_prism",
+            "spatial_filter",
+            "variable_density_filter",
+            "wollaston_prism",
+        ]
+    },
+    "linear_polarizer": {"longest": 720, "shortest": 500},
+    "objective": {"longest": 750, "shortest": 400},
+    "reflection_grating": {"longest": 800, "shortest": 500},
+    "dichroic_mirror": {"longest": 900, "shortest": 400},
+    "power_meter": {"longest": 980, "sensor": "silicon", "shortest": 440},
+}
+"""Parameters that types of the catalog have since the wavelength of light is data, with the values given there."""
 _SCALES = {"nW": 1e-6}  # to mW
 _REQUESTS: Mapping[str, tuple[str, ...]] = {"source": ("emission", "shutter", "power"), "shutter": ("shutter",)}
 """Tunables that let light out, by element: what a state says of them is a request, also in types that were written when
@@ -471,6 +536,8 @@ def as_first_written(kind: ComponentType) -> ComponentType:
         written = {n: _plain(parameter) for n, parameter in found.items()}
         alone = {n for n in written if (element, n) in _THERE_ALONE}
     own = {n: p for n, p in kind.parameters.items() if n not in alone and _SINCE.get((element, n)) != p.value}
+    said = _WAVELENGTHS.get(kind.name, {})
+    own = {n: p for n, p in own.items() if n not in said or p.value != said[n]}
     threshold, known = own.get("damage_threshold"), _THRESHOLDS.get(element, {})
     if threshold is not None and threshold.value == known.get(kind.name, known.get("")):
         own.pop("damage_threshold")
