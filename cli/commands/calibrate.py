@@ -37,15 +37,13 @@ def cameras(context: typer.Context) -> None:
     """Find out where the cameras are, how their lenses draw and how the arms are built.
 
     From pictures of the datums and of the calibration board, held up by a person and by the arms, and from the arms'
-    encoders; takes about half a minute. Writes calibration.json into the lab's folder. Nothing on the table moves.
+    encoders; takes about half a minute. Writes calibration/sim.json in the lab's folder. Nothing on the table moves.
     `pico calibrate` alone is the same.
     """
-    from pico.vision.calibration import FILE
-
     session = Session.of(context)
     bench = session.bench(writing=True)
     session.say("Taking pictures of the calibration board (about half a minute) ...")
-    session.show(view, bench.cameras.calibrate(), shown=FILE)
+    session.show(view, bench.cameras.calibrate(), shown="calibration/sim.json")
 
 
 @app.command()

@@ -27,7 +27,8 @@ from pico.model.pose import Pose, angle_between
 from pico.model.setup import Setup
 from pico.model.simulated import BadLight, SimErrors
 from pico.model.state import LabState, home_state
-from pico.vision.calibration import Accuracy, Calibration, write_calibration
+from pico.vision.calibration import Accuracy, Calibration
+from pico.vision.calibration_files import write_calibration
 
 ERRORS = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005, marker_height=0.1)
 STATE: LabState = shel()[1]
@@ -207,7 +208,7 @@ def calibrated(root: Path, position: float = 0.02) -> None:
     """Write a calibration as a perfect one would be; `position`: how well it is said to hold [mm]."""
     accuracy = Accuracy(position=position)
     cameras = sim(SETUP, root).world.true_cameras()
-    write_calibration(root, Calibration(cameras, accuracy, dict.fromkeys(cameras, 0.0), "2026-11-01T12:00:00Z"))
+    write_calibration(root, "sim", Calibration(cameras, accuracy, dict.fromkeys(cameras, 0.0), "2026-11-01T12:00:00Z"))
 
 
 def test_what_is_seen_less_exactly_than_it_must_stand_is_uncertain_and_not_right(tmp_path: Path) -> None:

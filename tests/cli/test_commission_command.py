@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,11 @@ import pytest
 from commanding import Pico, Typed, edit
 
 from pico.manifest.load import load_folder
+from pico.model.calibration.results import Provenance
 from pico.model.commissioning import STEPS
 from pico.vision.arm import NOMINAL, FoundArm
-from pico.vision.calibration import Calibration, write_calibration
+from pico.vision.calibration import Calibration
+from pico.vision.calibration_files import subjects_of, write_calibration
 from pico.vision.nominal import nominal
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
@@ -30,7 +33,9 @@ def calibrated(root: Path) -> None:
     setup = load_folder(root).require()[0]
     cameras = {name: nominal(name, camera) for name, camera in setup.lab.cameras.items()}
     arms = {name: FoundArm(offsets=NOMINAL, position=0.1, turn=0.05) for name in setup.lab.robots}
-    write_calibration(root, Calibration(cameras=cameras, arms=arms, made_at="2026-11-20T12:00:00Z"))
+    found = Calibration(cameras=cameras, arms=arms, made_at="2026-11-20T12:00:00Z")
+    how = Provenance(bench="emulated", evidence="emulated", at=found.made_at)
+    write_calibration(root, "emulated", replace(found, provenance=dict.fromkeys(subjects_of(found), how)))
 
 
 def report(root: Path) -> Any:

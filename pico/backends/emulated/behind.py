@@ -11,12 +11,14 @@ from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
 from pico.drivers.zaber_gantry import AXES, SCALE
+from pico.model.calibration.results import AxisZero
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
 from pico.model.instruments.mapping import mapped
 from pico.model.quantities import Value, convert
+from pico.model.simulated import DeviceError
 from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
 
@@ -117,9 +119,17 @@ class OfPart:
         self._kind = world.setup.type_of(component)
         setup, self._names = world.setup, about.kind == "choice"
         self._is: dict[str, tuple[str, Conversion | None]] = {
-            wired.property: (name, conversion_of(setup, about, entry, component, name, wired))
+            wired.property: (name, self._really(name, conversion_of(setup, about, entry, component, name, wired)))
             for name, wired in mapped(setup, about, entry, component).items()
         }
+
+    def _really(self, name: str, said: Conversion) -> Conversion:
+        """How a tunable really follows from the device's number: wrong by the lab's errors."""
+        wrong = self._wrong(name)
+        return AxisZero(direction=-1 if wrong.reversed else 1, zero=wrong.zero, sigma=0.0).corrects(said)
+
+    def _wrong(self, name: str) -> DeviceError:
+        return (self._world.setup.lab.sim.errors.devices or {}).get(f"{self._component}.{name}", DeviceError())
 
     def now(self) -> float:
         return self._world.now()
@@ -166,8 +176,11 @@ class OfPart:
         if not _number(reading.value):
             return None
         wired = next((one for key, one in self._is.values() if key == name), None)
-        unit = self._world.setup.measurables_of(self._component)[name].unit
-        return wired.to_device(reading.value) if wired else float(convert(f"{reading.value!r} {unit}", "W"))
+        unit, there = (
+            self._world.setup.measurables_of(self._component)[name].unit,
+            reading.value + self._wrong(name).dark,
+        )
+        return wired.to_device(there) if wired else float(convert(f"{there!r} {unit}", "W"))
 
 
 class OfCamera:
@@ -232,12 +245,13 @@ class SharedEyes:
     def _scene(self) -> Posed:
         from pico.backends.sim.sight import Posed
         from pico.twin.learned import read_learned, with_noise
-        from pico.vision.calibration import known_arms
+        from pico.vision.calibration_files import accepted_arms
 
         if self._posed is None:
-            setup, root = self._world.setup, self._world.place.root
-            noisy = with_noise(setup, read_learned(root))
-            self._posed = Posed(noisy, self._world.world(), known_arms(root), lit=False)
+            setup, place = self._world.setup, self._world.place
+            noisy = with_noise(setup, read_learned(place.root))
+            known = accepted_arms(place.root, place.name)
+            self._posed = Posed(noisy, self._world.world(), known, lit=False)
         return self._posed
 
 

@@ -29,7 +29,7 @@ from pico.motion.types import Joints
 from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
 from pico.twin.learned import read_learned
-from pico.vision.calibration import known_arms
+from pico.vision.calibration_files import accepted_arms
 
 FOLDER = "emulated"
 GRIPPER_MASS = PALM_MASS + 2 * FINGER_MASS
@@ -62,7 +62,8 @@ class EmulatedWorld:
         self._pulled: set[str] = set()
         self._contacts: Contacts | None = None
         self._people = people
-        self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
+        known = accepted_arms(place.root, place.name)
+        self._arms, self._learned = arms_of(setup, self._world.seed, known), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
 
