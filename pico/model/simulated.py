@@ -97,7 +97,8 @@ class SimErrors:
 
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
     random axis, its focal length is wrong by the share `focal_length` and k1 of its lens by `distortion`, up or down.
-    `marker_height`: sigma by which a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
+    `marker_height`: sigma by which a marker lies above or below where its type says [mm]. `lost_frames`: share of
+    pictures that come out black.
     `noise`: factor on the sensors' noise. `seat`: how far off a part comes to sit that is put down, as a multiple of
     its type's repeatability; where it is left out 1 in physics, and 0 (exactly) in kinematic fidelity. `arm`: what is
     wrong with arms, `light`: with the light, `sensor`: with the sensors of beam cameras, `devices`: with emulated

@@ -77,7 +77,7 @@ class Calibration:
             "made_at": self.made_at,
             "accuracy": as_json(self.accuracy),
             "residuals": {name: round(value, 4) for name, value in sorted(self.residuals.items())},
-            "cameras": {name: _camera_json(camera) for name, camera in sorted(self.cameras.items())},
+            "cameras": {name: camera_as_json(camera) for name, camera in sorted(self.cameras.items())},
             **also,
             "provenance": as_json(dict(sorted(self.provenance.items())), _nine),
         }
@@ -109,7 +109,7 @@ def calibration_from_json(data: object) -> Calibration:
     """Return the calibration whose `as_json` gave `data`; raises ValueError, KeyError or TypeError for other data."""
     document = FORMAT.lifted(data)
     return Calibration(
-        cameras={name: _camera(name, camera) for name, camera in document["cameras"].items()},
+        cameras={name: camera_from_json(name, camera) for name, camera in document["cameras"].items()},
         accuracy=Accuracy(**document["accuracy"]),
         residuals=document["residuals"],
         made_at=document["made_at"],
@@ -120,7 +120,8 @@ def calibration_from_json(data: object) -> Calibration:
     )
 
 
-def _camera_json(camera: CameraModel) -> dict[str, Any]:
+def camera_as_json(camera: CameraModel) -> dict[str, Any]:
+    """Return a camera as calibrations have it: lens, position [mm] and rotation vector [deg]."""
     import numpy as np
 
     k = camera.matrix
@@ -153,7 +154,8 @@ def _arm(data: Mapping[str, Any]) -> FoundArm:
     return FoundArm(offsets=ArmOffsets(**offsets), position=data["position"], turn=data["turn"])
 
 
-def _camera(name: str, data: Mapping[str, Any]) -> CameraModel:
+def camera_from_json(name: str, data: Mapping[str, Any]) -> CameraModel:
+    """Return the camera whose `camera_as_json` gave `data`; raises KeyError, TypeError or ValueError."""
     import numpy as np
 
     (fx, fy), (cx, cy) = data["focal"], data["principal"]

@@ -25,6 +25,7 @@ from pico.motion.types import Joints
 if TYPE_CHECKING:
     from pico.backends.sim.sight import Posed
     from pico.backends.sim.world import World
+    from pico.cameras.board import Sheet
 
 
 HIGHEST = 1000.0
@@ -227,15 +228,24 @@ class SharedEyes:
     def __init__(self, world: EmulatedWorld) -> None:
         self._world, self._lock = world, threading.Lock()
         self._posed: Posed | None = None
-        self._taken: dict[str, tuple[World, Any]] = {}
+        self._taken: dict[str, tuple[tuple[World, object], Any]] = {}
+        self._light: dict[str, tuple[World, Any]] = {}
 
     def picture(self, camera: str) -> Any:
         """Return what a camera sees now, gray levels (rows, columns)."""
         with self._lock:
-            now = replace(self._world.world(), clock=0.0)
-            if camera not in self._taken or self._taken[camera][0] != now:
-                self._taken[camera] = now, self._scene().eyes(now).frame(camera).gray
+            now, shown = replace(self._world.world(), clock=0.0), self._world.shown
+            if camera not in self._taken or self._taken[camera][0] != (now, shown):
+                self._taken[camera] = (now, shown), self._frame(camera, now, shown)
             return self._taken[camera][1]
+
+    def _frame(self, camera: str, now: World, shown: Sheet | None) -> Any:
+        eyes = self._scene().eyes(now)
+        if shown is None:
+            return eyes.frame(camera).gray
+        if camera not in self._light or self._light[camera][0] != now:  # while a board is moved the rest stands still
+            self._light[camera] = now, eyes.light(camera)
+        return eyes.frame(camera, light=self._light[camera][1], sheets=(shown,)).gray
 
     def open(self) -> None:
         """Make the scene, so that the first picture does not take longer than any other."""

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Collection
 from contextlib import suppress
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.backends.emulated.contact import ABNORMAL_CURRENT, LOAD_ERROR, Contacts
 from pico.backends.hardware.settings import Settings
@@ -30,6 +31,9 @@ from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
 from pico.twin.learned import read_learned
 from pico.vision.calibration_files import accepted_arms
+
+if TYPE_CHECKING:
+    from pico.cameras.board import Sheet
 
 FOLDER = "emulated"
 GRIPPER_MASS = PALM_MASS + 2 * FINGER_MASS
@@ -60,6 +64,8 @@ class EmulatedWorld:
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
         self._devices = Settings(place, DEVICES)
         self._pulled: set[str] = set()
+        self.shown: Sheet | None = None
+        """The print that somebody holds up before the cameras."""
         self._contacts: Contacts | None = None
         self._people = people
         known = accepted_arms(place.root, place.name)

@@ -174,6 +174,11 @@ class HardwareDevice:
                 if was[address] is False:
                     await lamps[address].set(False)
 
+    async def picture(self, camera: str) -> Frame:
+        """Return a picture of a camera over the table as it is taken now, lamps on; raises PicoError."""
+        bench = await self.links.instruments()
+        return await self._lit(bench, self._frame(bench, camera))
+
     async def _looked(self, bench: Instruments) -> Look:
         from pico.backends.sight import unlooked
 

@@ -134,9 +134,12 @@ def wired(
     setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settings: Settings,
     without: Mapping[str, Sequence[Diagnostic]] = MappingProxyType({}), known: Calibration | None = None,
 ) -> Instruments:  # fmt: skip
-    """Return the instruments of a lab's devices, none of them connected. `without`: why some can't be had; `known`: how the
-    bench is calibrated. What can't be had, and what has a driver that is not installed, or is broken, answers every
-    call with the reason (`lacking`). Raises PicoError for an entry that does not go with its driver, and for an extra that is missing."""
+    """Return the instruments of a lab's devices, none of them connected.
+
+    `without`: why some can't be had; `known`: how the bench is calibrated. What can't be had, and what has a driver
+    that is not installed, or is broken, answers every call with the reason (`lacking`). Raises PicoError for an entry
+    that does not go with its driver, and for an extra that is missing.
+    """
     from pico.drivers.registry import driver
 
     found, wrong = Instruments(), list[Diagnostic]()
