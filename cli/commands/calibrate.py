@@ -88,7 +88,7 @@ def steps(
     simulator all is found at once, see `pico calibrate cameras`. Exit code 2: steps are left.
 
     Examples:
-      pico --backend hardware calibrate --list
+      pico calibrate steps --list --backend hardware
       pico --backend hardware calibrate intrinsics --square 36.1 --marker 27.1
       pico --emulate calibrate --hands simulated
     """

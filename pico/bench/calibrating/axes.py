@@ -7,9 +7,9 @@ from typing import Any
 from pico.bench.calibrating.at_table import AtTable
 from pico.bench.calibrating.pictured import readings_drawn
 from pico.diagnostics import PicoError, error
+from pico.model.calibration.axis_zero import zero_of
 from pico.model.calibration.results import AxisZero, Provenance
 from pico.model.quantities import convert
-from pico.model.calibration.axis_zero import zero_of
 
 PROCEDURE = "axes/1"
 SHARES = (0.03, 0.17, 0.29, 0.44, 0.58, 0.71, 0.9)
