@@ -141,6 +141,34 @@ def _board(squares: str | None, square: float | None, marker: float | None) -> B
 
 
 @app.command()
+def lens(
+    context: typer.Context,
+    camera: Annotated[str, typer.Argument(metavar="CAMERA", help="A camera over the table.")],
+    file: Annotated[Path, typer.Argument(metavar="FILE", help="Its lens, as ROS or OpenCV wrote it.")],
+    lock_timeout: LockTimeout = None,
+) -> None:
+    """Take the lens of a camera from a file, instead of the step `intrinsics`.
+
+    A `camera_info` of ROS, or `camera_matrix` and `distortion_coefficients` of OpenCV in YAML or JSON, with 4, 5 or 8
+    coefficients, or 4 of a fisheye lens (`distortion_model: fisheye`). It counts with 1 px for focal lengths and
+    principal point. Then `pico calibrate extrinsics` finds where the camera stands.
+
+    Examples:
+      pico --backend hardware calibrate lens left left_info.yaml
+    """
+    from pico.bench.calibrating.walk import CalibrationWalk
+
+    session = Session.of(context)
+    bench = session.bench(writing=True)
+    person = Person(session, False, bench.backend_name)
+    said = CalibrationWalk(bench, person, person).take_lens(camera, session.folder / file)
+    if session.json:
+        session.document({"schema": "pico.lens/v1", "camera": camera, "file": str(file)})
+    else:
+        session.say(f"{said}\n`pico calibrate extrinsics` finds where it stands.")
+
+
+@app.command()
 def cameras(context: typer.Context) -> None:
     """Find out in the simulator where the cameras are, how their lenses draw and how the arms are built.
 

@@ -44,6 +44,10 @@ class Person:
     def away(self) -> None:
         """Ask for nothing: what the next step needs, it asks itself."""
 
+    def give(self, robot: str, board: Board, text: str) -> bool:
+        """Ask for the board in the hand of a robot, and return whether it is there."""
+        return self.session.confirm(f"{text}. Is it there?", False)
+
     def read(self, address: str, unit: str, text: str) -> float:
         """Ask for what a scale shows, until it is a number."""
         if sys.stdin is None or not sys.stdin.isatty():

@@ -54,7 +54,7 @@ class Bundle:
 
 
 def lens(camera: CameraModel) -> Array:
-    """Return the nine numbers of a camera's lens."""
+    """Return the numbers of a camera's lens: fx, fy, cx, cy and its distortion."""
     import numpy as np
 
     k = camera.matrix

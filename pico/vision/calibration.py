@@ -134,6 +134,7 @@ def camera_as_json(camera: CameraModel) -> dict[str, Any]:
         "distortion": _plain(camera.distortion),
         "position": _plain(camera.pose[:3, 3]),
         "rotation": _plain(np.degrees(rotation_vector(camera.pose[:3, :3]))),
+        **({"fisheye": True} if camera.fisheye else {}),
     }
 
 
@@ -168,4 +169,5 @@ def camera_from_json(name: str, data: Mapping[str, Any]) -> CameraModel:
         motion(rotation(np.radians(data["rotation"])), np.array(data["position"], np.float64)),
         data["robot"],
         data["depth"],
+        data.get("fisheye", False),
     )

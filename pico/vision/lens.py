@@ -47,7 +47,7 @@ class FoundPlace:
 
     camera: CameraModel
     sigmas: Array
-    """One standard deviation of its lens (9), its place [mm] and its turn [rad]."""
+    """One standard deviation of each number of its lens, of its place [mm] and its turn [rad]."""
     residual: float
     """What is left of the datums' corners, root mean square [pixels]."""
 
@@ -126,23 +126,42 @@ def _sigmas(views: Sequence[BoardView], camera: CameraModel, poses: Sequence[Arr
 
 def place_of(points: Array, pixels: Array, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
     """Return where a camera stands that sees `points` (n, 3) [mm] of the table at `pixels` (n, 2). Its lens is known to
-    `lens_sigmas` (9,), and is fitted within these, so that the place is no more certain than the lens lets it be."""
+    `lens_sigmas` (n,), and is fitted within these, so that the place is no more certain than the lens lets it be."""
     import numpy as np
 
     numbers, sure = lens(start), np.maximum(np.asarray(lens_sigmas, np.float64) * LOOSER, 1e-12)
 
+    many = len(numbers)
+
     def at(change: Array) -> CameraModel:
-        return with_lens(replace(start, pose=moved(start.pose, change[LENS:])), numbers + change[:LENS] * sure)
+        return with_lens(replace(start, pose=moved(start.pose, change[many:])), numbers + change[:many] * sure)
 
     def residuals(change: Array) -> Array:
         off = np.nan_to_num(at(change).project(points) - pixels, nan=1e4).ravel() / DATUM_NOISE
-        return np.concatenate([off, change[:LENS]])
+        return np.concatenate([off, change[:many]])
 
-    steps = np.array((1e-2,) * LENS + POSE_STEPS)
-    found = solve(residuals, np.zeros(LENS + 6), steps)
+    found = solve(residuals, np.zeros(many + 6), np.array((1e-2,) * many + POSE_STEPS))
     off = at(found.parameters).project(points) - pixels
     left = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
     free = max(1, 2 * len(points) - 6)
     worse = max(1.0, float(np.sqrt(np.sum((off / DATUM_NOISE) ** 2) / free)))
     sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0)) * worse
-    return FoundPlace(at(found.parameters), np.concatenate([sigmas[:LENS] * sure, sigmas[LENS:]]), left)
+    return FoundPlace(at(found.parameters), np.concatenate([sigmas[:many] * sure, sigmas[many:]]), left)
+
+
+def board_in(views: Sequence[BoardView], cameras: Sequence[CameraModel]) -> tuple[Array, float]:
+    """Return the pose (4, 4) on the table of a board that calibrated `cameras` see at one instant, each in one of
+    `views`, and what is left of its corners, root mean square [pixels]."""
+    import numpy as np
+
+    first = max(range(len(views)), key=lambda i: len(views[i].corners))
+    start = cameras[first].pose @ _board_pose(views[first], replace(cameras[first], pose=np.eye(4)))
+
+    def off(change: Array) -> Array:
+        pose = moved(start, change)
+        seen = [camera.project(view.corners @ pose[:3, :3].T + pose[:3, 3]) - view.pixels
+                for view, camera in zip(views, cameras, strict=True)]  # fmt: skip
+        return np.nan_to_num(np.concatenate(seen), nan=1e3).ravel()
+
+    found = solve(off, np.zeros(6), np.array(POSE_STEPS))
+    return moved(start, found.parameters), found.rms * 2**0.5

@@ -118,3 +118,28 @@ def test_what_is_wrong_with_an_emulated_bench_is_found_and_then_gone_by(
     )
     missing = pico(*EMULATED, "commission", "--only", "calibration", "-y")
     assert missing.code == 1 and "`pico --bench emulated calibrate axes`" in missing.err, missing.err
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not there, reason="the extras xarm and thorlabs")
+def test_a_lens_that_was_calibrated_elsewhere_needs_no_board(wired: Path, pico: Pico) -> None:
+    setup = load_folder(wired).require()[0]
+    true = true_cameras(setup, setup.lab.sim.errors, setup.lab.sim.seed)
+    for name in ("left", "right"):
+        camera = true[name]
+        about = {"width": camera.pixels[0], "height": camera.pixels[1], "distortion_model": "plumb_bob"}
+        lens_said = {"K": camera.matrix.ravel().tolist(), "D": camera.distortion.tolist()}
+        (wired / f"{name}.json").write_text(json.dumps({**about, **lens_said}))
+        answer = pico(*EMULATED, "calibrate", "lens", name, f"{name}.json")
+        assert answer.code == 0 and "5 coefficients" in answer.out, answer.out + answer.err
+    wrong = pico(*EMULATED, "calibrate", "lens", "lefft", "left.json")
+    assert wrong.code == 1 and "no camera over the table is called `lefft`" in wrong.err and "left" in wrong.err
+    found = pico(*EMULATED, "calibrate", "extrinsics")
+    assert found.code == 2 and "placed by the datums alone" in found.out, found.out + found.err
+    known = read_calibration(wired, "emulated")
+    assert known is not None
+    for name in ("left", "right"):
+        how = known.provenance[f"extrinsics/{name}"]
+        off = known.cameras[name].pose[:3, 3] - true[name].pose[:3, 3]
+        assert np.all(np.abs(off) < 4 * np.array([how.uncertainty[f"{axis}_mm"] for axis in "xyz"])), (off, how)
+        assert known.provenance[f"intrinsics/{name}"].procedure == f"imported/1: {name}.json"

@@ -11,8 +11,8 @@ from test_calibration import BENCH, NOISE, poses, seen, table
 
 from pico.diagnostics import PicoError
 from pico.vision.bundle import LENS, bundle, datums_in, lens
-from pico.vision.lens import lens_of, place_of
-from pico.vision.rigid import rotation_vector
+from pico.vision.lens import board_in, lens_of, place_of
+from pico.vision.rigid import apart, rotation_vector
 
 
 def true_of(camera, rng):
@@ -63,3 +63,12 @@ def test_too_few_pictures_and_pictures_that_no_lens_explains_are_named() -> None
     bent = [replace(view, pixels=view.pixels + rng.normal(0, 5, view.pixels.shape)) for view in views]
     with pytest.raises(PicoError, match="no lens explains what camera `left` saw"):
         lens_of(bent, camera)
+
+
+def test_a_board_that_two_calibrated_cameras_see_is_found_on_the_table() -> None:
+    rng, cameras = np.random.default_rng(5), stereo()
+    for pose in poses(rng, 4):
+        views = [seen(camera, pose, rng) for camera in cameras.values()]
+        found, left = board_in(views, list(cameras.values()))
+        distance, angle = apart(found, pose)
+        assert distance < 0.1 and angle < 0.05 and left == pytest.approx(NOISE * 2**0.5, rel=0.3)

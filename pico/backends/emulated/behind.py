@@ -234,7 +234,7 @@ class SharedEyes:
     def picture(self, camera: str) -> Any:
         """Return what a camera sees now, gray levels (rows, columns)."""
         with self._lock:
-            now, shown = replace(self._world.world(), clock=0.0), self._world.shown
+            now, shown = replace(self._world.world(), clock=0.0), self._world.sheet()
             if camera not in self._taken or self._taken[camera][0] != (now, shown):
                 self._taken[camera] = (now, shown), self._frame(camera, now, shown)
             return self._taken[camera][1]

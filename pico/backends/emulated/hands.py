@@ -50,7 +50,20 @@ class SimulatedHands:
 
     def away(self) -> None:
         """Put the board away."""
-        self._world.shown = None
+        self._world.shown = self._world.in_hand = None
+
+    def give(self, robot: str, board: Board, text: str) -> bool:
+        """Hold the block behind the board between the fingers of a robot, and return True."""
+        import numpy as np
+
+        from pico.cameras.board import board_sheet
+        from pico.motion.built.fitting import SLACK, grip
+        from pico.vision.rigid import moved
+
+        sigmas = np.repeat((SLACK[0], math.radians(SLACK[1])), 3)
+        askew = moved(np.eye(4), self._random.normal(0.0, sigmas))
+        self._world.in_hand = robot, board_sheet(askew @ grip(), board)
+        return True
 
     def read(self, address: str, unit: str, text: str) -> float:
         """Return what the scale of an axis shows; raises PicoError if nobody can read it."""

@@ -66,6 +66,8 @@ class EmulatedWorld:
         self._pulled: set[str] = set()
         self.shown: Sheet | None = None
         """The print that somebody holds up before the cameras."""
+        self.in_hand: tuple[str, Sheet] | None = None
+        """The print that a robot holds, where it is in the tool's frame."""
         self._contacts: Contacts | None = None
         self._people = people
         known = accepted_arms(place.root, place.name)
@@ -158,6 +160,15 @@ class EmulatedWorld:
         """Return the part in the hand of a robot."""
         with self._lock:
             return self._world.robots[robot].holding
+
+    def sheet(self) -> Sheet | None:
+        """Return the print that cameras see now, where it is."""
+        with self._lock:
+            if self.in_hand is None:
+                return self.shown
+            robot, print_ = self.in_hand
+            tool = self._arms[robot].tool_in_space(self._world.robots[robot].joints, None)
+            return replace(print_, pose=tool @ print_.pose)
 
     def width(self, robot: str) -> float:
         """Return how far apart the fingers of a robot are [mm]."""

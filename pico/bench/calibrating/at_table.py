@@ -44,6 +44,10 @@ class Hands(Protocol):
         """Take the board away."""
         ...
 
+    def give(self, robot: str, board: Board, text: str) -> bool:
+        """Hold the block behind the board between the fingers of a robot, as `text` says, and return whether it is."""
+        ...
+
     def read(self, address: str, unit: str, text: str) -> float:
         """Return what the scale of an axis shows, in `unit`. Raises PicoError if nobody reads it."""
         ...

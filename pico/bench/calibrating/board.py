@@ -167,7 +167,7 @@ def _lens(at: AtTable, name: str) -> str:
     found = lens_of(views, camera_models(at.device.setup)[name])
     how = at.provenance(
         PROCEDURE, at.devices_of(name), residual=found.residual, held_out=found.held_out, unit="px",
-        uncertainty=of_lens(found.sigmas),
+        uncertainty=of_lens(found.camera, found.sigmas),
     )  # fmt: skip
     at.keep(replace(
         at.progress, lenses={**at.progress.lenses, name: found.camera},

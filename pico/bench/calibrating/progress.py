@@ -24,6 +24,18 @@ Shot = Mapping[str, BoardView]
 
 
 @dataclass(frozen=True, eq=False)
+class Posture:
+    """One posture in which an arm showed the board."""
+
+    take: int
+    """How often the hand had taken the board by then."""
+    read: Array
+    """What the encoders read (7,) [rad]."""
+    board: Array | None
+    """Where the board was (4, 4) [mm]; None if it was not seen well enough."""
+
+
+@dataclass(frozen=True, eq=False)
 class Progress:
     """What was found so far."""
 
@@ -39,6 +51,8 @@ class Progress:
     """One standard deviation of the nine numbers of each lens."""
     provenance: Mapping[str, Provenance] = field(default_factory=dict)
     """How these lenses were found, as `intrinsics/CAMERA`."""
+    postures: Mapping[str, tuple[Posture, ...]] = field(default_factory=dict)
+    """The postures in which each arm showed the board, until all are done."""
 
 
 def read_progress(place: BenchPlace) -> Progress:
@@ -64,6 +78,13 @@ def _as_json(progress: Progress) -> dict[str, Any]:
         "lenses": {name: camera_as_json(camera) for name, camera in progress.lenses.items()},
         "sigmas": {name: list(sigmas) for name, sigmas in progress.sigmas.items()},
         "provenance": as_json(dict(progress.provenance)),
+        "postures": {
+            robot: [
+                {"take": p.take, "read": p.read.tolist(), "board": None if p.board is None else p.board.tolist()}
+                for p in each
+            ]
+            for robot, each in progress.postures.items()
+        },
     }
 
 
@@ -83,4 +104,11 @@ def _from_json(data: dict[str, Any]) -> Progress:
         lenses={name: camera_from_json(name, camera) for name, camera in data["lenses"].items()},
         sigmas={name: tuple(sigmas) for name, sigmas in data["sigmas"].items()},
         provenance={name: Provenance(**how) for name, how in data["provenance"].items()},
+        postures={
+            robot: tuple(
+                Posture(p["take"], np.array(p["read"]), None if p["board"] is None else np.array(p["board"]))
+                for p in each
+            )
+            for robot, each in data["postures"].items()
+        },
     )

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 PROCEDURE = "extrinsics/1"
 STILL = 0.5
 """How far datums may be seen apart since the board was shown [pixels]: beyond that, a camera was moved."""
+LOOSE = {"f": 5.0, "c": 5.0, "k": 0.01, "p": 1e-3}
+"""One standard deviation of the numbers of a lens of which none is said: focal lengths and principal point [pixels],
+and coefficients of the distortion, by their first letter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,7 +89,7 @@ def _together(
         left, sigmas = found.residuals[name], found.sigmas[name]
         provenance[f"intrinsics/{name}"] = at.provenance(
             known[name][1].procedure, at.devices_of(name), residual=left, held_out=known[name][1].held_out, unit="px",
-            uncertainty=of_lens(sigmas[:LENS]),
+            uncertainty=of_lens(found.cameras[name], sigmas[:LENS]),
         )  # fmt: skip
         out = _held_out(at, seen[name], found.cameras[name], sigmas)
         provenance[f"extrinsics/{name}"] = at.provenance(
@@ -109,13 +112,13 @@ def _alone(
     for name in cameras:
         camera, how = known[name]
         points, pixels = _require_datums(at, name, seen[name])
-        found = place_of(points, pixels, camera, _sigmas_of(how))
+        found = place_of(points, pixels, camera, _sigmas_of(camera, how))
         out = _held_out(at, seen[name], found.camera, found.sigmas)
         placed[name], residuals[name] = found.camera, round(found.residual, 4)
         provenance[f"intrinsics/{name}"] = how
         provenance[f"extrinsics/{name}"] = at.provenance(
             PROCEDURE, at.devices_of(name), residual=found.residual, held_out=out, unit="px",
-            uncertainty=_of_pose(found.sigmas[LENS:]),
+            uncertainty=_of_pose(found.sigmas[-6:]),
         )  # fmt: skip
         high = float(np.mean(np.linalg.norm(points - found.camera.pose[:3, 3], axis=1)))
         worst = max(worst, max(found.residual, 0.05) * high / float(found.camera.matrix[0, 0]))
@@ -143,25 +146,27 @@ def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array)
     squares = []
     for i in range(0, len(points), 4):
         others = np.r_[0:i, i + 4 : len(points)]
-        placed = place_of(points[others], pixels[others], camera, sigmas[:LENS]).camera
+        placed = place_of(points[others], pixels[others], camera, sigmas[:-6]).camera
         squares.append(np.sum((placed.project(points[i : i + 4]) - pixels[i : i + 4]) ** 2, axis=1))
     return float(np.sqrt(np.mean(squares)))
 
 
-NUMBERS = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3")
+def names_of(camera: CameraModel) -> tuple[str, ...]:
+    """Return what the numbers of a lens are called."""
+    own = ("k1", "k2", "k3", "k4") if camera.fisheye else ("k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6")
+    return ("fx_px", "fy_px", "cx_px", "cy_px", *own[: len(camera.distortion)])
 
 
-def of_lens(sigmas: Array) -> dict[str, float]:
-    """Return the uncertainties of the nine numbers of a lens by name."""
-    return dict(zip(NUMBERS, (float(v) for v in sigmas), strict=True))
+def of_lens(camera: CameraModel, sigmas: Array) -> dict[str, float]:
+    """Return the uncertainties of the numbers of a lens by name."""
+    return dict(zip(names_of(camera), (float(v) for v in sigmas), strict=True))
 
 
-def _sigmas_of(how: Provenance) -> Array:
-    """One standard deviation of each number of a lens, as it was found; loose where that is not said."""
+def _sigmas_of(camera: CameraModel, how: Provenance) -> Array:
+    """One standard deviation of each number of a lens, as it was found; loose if that is not said."""
     import numpy as np
 
-    loose = (5.0, 5.0, 5.0, 5.0, 0.01, 0.01, 1e-3, 1e-3, 0.01)
-    return np.array([how.uncertainty.get(name, other) for name, other in zip(NUMBERS, loose, strict=True)])
+    return np.array([how.uncertainty.get(name, LOOSE[name[:1]]) for name in names_of(camera)])
 
 
 def _of_pose(sigmas: Array) -> dict[str, float]:
@@ -173,7 +178,7 @@ def _of_pose(sigmas: Array) -> dict[str, float]:
 
 def _line(camera: CameraModel, sigmas: Array, left: float, out: float | None) -> str:
     x, y, z = camera.pose[:3, 3]
-    sx, sy, sz = sigmas[LENS : LENS + 3]
+    sx, sy, sz = sigmas[-6:-3]
     held = "" if out is None else f", {out:.3f} px of datums held out"
     return (f"{camera.name}: at ({x:.2f} ± {sx:.2f}, {y:.2f} ± {sy:.2f}, {z:.2f} ± {sz:.2f}) mm, focal length "
             f"{lens(camera)[0]:.2f} ± {sigmas[0]:.2f} px, {left:.3f} px are left{held}")  # fmt: skip

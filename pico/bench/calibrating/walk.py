@@ -12,15 +12,16 @@ from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.hardware.device import HardwareDevice
 from pico.base.state_files import CALIBRATION_PICTURES
 from pico.bench.bench import Bench
+from pico.bench.calibrating.arms import arm_of
 from pico.bench.calibrating.at_table import SHOTS, Asking, AtTable, Hands
 from pico.bench.calibrating.axes import axis
 from pico.bench.calibrating.board import intrinsics
 from pico.bench.calibrating.dark import dark
 from pico.bench.calibrating.progress import read_progress
 from pico.bench.calibrating.subjects import standing_of
-from pico.bench.calibrating.table import FoundCameras, extrinsics
+from pico.bench.calibrating.table import FoundCameras, extrinsics, names_of
 from pico.bench.lasers import person_of
-from pico.diagnostics import ExitCode, PicoError, error
+from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.edge.local import LocalEdge
 from pico.model.calibration.results import ACCEPTED, Provenance
 from pico.model.calibration.steps import BEFORE, STEPS, CalibrationStep, StepStanding
@@ -29,8 +30,14 @@ from pico.vision.calibration import Accuracy, Calibration
 from pico.vision.calibration_files import calibration_file, stored_calibration, write_calibration
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BOARD, Board
+from pico.vision.lens_files import read_lens
+from pico.vision.nominal import camera_models
 
 CODE = "calibration"
+IMPORT = "imported/1"
+"""The procedure of a lens that was calibrated elsewhere."""
+IMPORTED = {"f": 1.0, "c": 1.0, "k": 1e-3, "p": 1e-4}
+"""One standard deviation of the numbers of such a lens, see `pico.bench.calibrating.table.LOOSE`."""
 LEAST_POSITION = 0.02
 """No position on the table counts as known better than this [mm]."""
 
@@ -100,6 +107,30 @@ class CalibrationWalk:
                 self._require_before(step, at)
                 yield Done(step=step, lines=self._done(step, names, at))
 
+    def take_lens(self, name: str, path: Path) -> str:
+        """Take the lens of a camera from a file that was made elsewhere, until `extrinsics` places the camera.
+
+        Return it in words; raises PicoError.
+        """
+        over = {n: c for n, c in camera_models(self.device.setup).items() if c.robot is None}
+        if name not in over:
+            hint = did_you_mean(name[:40], over) or f"cameras over the table: {', '.join(over)}"
+            raise PicoError(error("unknown-camera", f"no camera over the table is called `{name[:40]}`", hint=hint))
+        self.bench.wait(self.device.links.instruments())
+        self._drop_refused()
+        at, camera = self._at(), read_lens(path, over[name])
+        loose = {key: IMPORTED[key[:1]] for key in names_of(camera)}
+        how = replace(
+            at.provenance(f"{IMPORT}: {path.name}", at.devices_of(name), residual=0.0, held_out=None, unit="px",
+                          uncertainty=loose), residual=None,
+        )  # fmt: skip
+        at.keep(replace(
+            at.progress, shots=(), lenses={**at.progress.lenses, name: camera},
+            provenance={**at.progress.provenance, f"intrinsics/{name}": how},
+        ))  # fmt: skip
+        kind = "fisheye" if camera.fisheye else f"{len(camera.distortion)} coefficients"
+        return f"{name}: focal length {camera.matrix[0, 0]:.2f} px, {kind}, from {path.name}"
+
     def _at(self) -> AtTable:
         hands: Hands | None = self._hands
         if hands is None:
@@ -130,16 +161,17 @@ class CalibrationWalk:
         if step == "extrinsics":
             found = extrinsics(at, names, self._lenses(at))
             self._keep(_with_cameras(self._known(), found))
+            at.keep(replace(at.progress, postures={}))  # where an arm showed the board is told by other cameras now
             return found.lines
-        if step == "arms":
-            text = "arms are not calibrated on benches with devices, yet: an arm counts as the lab has it"
-            raise PicoError(error(CODE, text, hint="the simulator tries the procedure: `pico --bench sim calibrate`"))
         lines = []
         for name in names:
             known = self._known()
             if step == "axes":
                 zero, how, line = axis(at, name)
                 known = replace(known, axes={**known.axes, name: zero})
+            elif step == "arms":
+                arm, how, line = arm_of(at, name, known.cameras)
+                known = replace(known, arms={**known.arms, name: arm})
             else:
                 level, how, line = dark(at, name)
                 known = replace(known, dark={**known.dark, name: level})
