@@ -84,7 +84,7 @@ def steps(
 
     Lenses and places of the cameras over the table, direction and zero of mounts that turn, dark levels of detectors.
     Each step says what to do, shows how far it is, and writes a picture. What it finds goes into calibration/BENCH.json
-    with how it was found; call it again to go on after a stop. STEP alone is short: `pico calibrate axes`. In the
+    with how it was found; call it again to go on after a stop. `steps` may be left out before a STEP. In the
     simulator all is found at once, see `pico calibrate cameras`. Exit code 2: steps are left.
 
     Examples:
@@ -151,10 +151,10 @@ def lens(
 
     A `camera_info` of ROS, or `camera_matrix` and `distortion_coefficients` of OpenCV in YAML or JSON, with 4, 5 or 8
     coefficients, or 4 of a fisheye lens (`distortion_model: fisheye`). It counts with 1 px for focal lengths and
-    principal point. Then `pico calibrate extrinsics` finds where the camera stands.
+    principal point. Then the step `extrinsics` finds where the camera stands.
 
     Examples:
-      pico --backend hardware calibrate lens left left_info.yaml
+      pico calibrate lens left left_info.yaml --backend hardware
     """
     from pico.bench.calibrating.walk import CalibrationWalk
 
@@ -165,7 +165,7 @@ def lens(
     if session.json:
         session.document({"schema": "pico.lens/v1", "camera": camera, "file": str(file)})
     else:
-        session.say(f"{said}\n`pico calibrate extrinsics` finds where it stands.")
+        session.say(f"{said}\n`pico calibrate steps extrinsics` finds where it stands.")
 
 
 @app.command()

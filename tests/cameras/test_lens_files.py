@@ -10,11 +10,11 @@ import cv2
 import numpy as np
 import pytest
 
+from pico.cameras.lens_files import read_lens
 from pico.diagnostics import PicoError
 from pico.vision.calibration import camera_as_json, camera_from_json
 from pico.vision.camera import CameraModel
 from pico.vision.lens import place_of
-from pico.vision.lens_files import read_lens
 from pico.vision.rigid import apart, motion, rotation
 
 MATRIX = [[1201.5, 0.0, 645.25], [0.0, 1199.0, 470.5], [0.0, 0.0, 1.0]]

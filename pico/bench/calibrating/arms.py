@@ -7,13 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from pico.backends import checks
+from pico.backends import checks, ways
 from pico.backends.attempt import Failed
 from pico.backends.hardware.walking import FIRST_SPEED
 from pico.bench.calibrating.at_table import AtTable, Stopped
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.bench.calibrating.progress import Posture, Progress
-from pico.bench.commissioning.swinging import backwards
 from pico.cameras.postures import postures, seen_by
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
@@ -164,7 +163,7 @@ async def _showing(
 
     at.require_dark("an arm that moves")
     park = at.device.setup.lab.robots[robot].park_joints
-    await at.device.walk(backwards(path, park), speed)
+    await at.device.walk(ways.backwards(path, park), speed)
     await at.device.links.pause(SETTLED)
     arm = (await at.device.links.instruments()).arms[robot]
     read = np.mean([(await arm.state()).joints for _ in range(READS)], axis=0)

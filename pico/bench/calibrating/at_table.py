@@ -115,7 +115,9 @@ class AtTable:
         """Raise PicoError unless every laser is known to be dark."""
         if self.device.may_emit():
             text = f"a laser may emit, and {doing} needs the table dark"
-            raise PicoError(error("light", text, hint="close its shutter, or `pico laser off`; then go on"))
+            raise PicoError(
+                error("light", text, hint="close its shutter or switch it off (`pico laser disarm`); then go on")
+            )
 
 
 class Stopped(PicoError):

@@ -21,6 +21,7 @@ from pico.bench.calibrating.progress import read_progress
 from pico.bench.calibrating.subjects import standing_of
 from pico.bench.calibrating.table import FoundCameras, extrinsics, names_of
 from pico.bench.lasers import person_of
+from pico.cameras.lens_files import read_lens
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.edge.local import LocalEdge
 from pico.model.calibration.results import ACCEPTED, Provenance
@@ -30,7 +31,6 @@ from pico.vision.calibration import Accuracy, Calibration
 from pico.vision.calibration_files import calibration_file, stored_calibration, write_calibration
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BOARD, Board
-from pico.vision.lens_files import read_lens
 from pico.vision.nominal import camera_models
 
 CODE = "calibration"
@@ -153,7 +153,7 @@ class CalibrationWalk:
         left = [row.subject for row in rows if row.why and f"{row.step}/{row.subject}" not in at.progress.provenance]
         if left:
             text = f"{step} comes after {before}, which is not done for {', '.join(left)}"
-            raise PicoError(error(CODE, text, hint=f"`pico calibrate {before} {step}`"))
+            raise PicoError(error(CODE, text, hint=f"`pico calibrate steps {before} {step}`"))
 
     def _done(self, step: CalibrationStep, names: tuple[str, ...], at: AtTable) -> tuple[str, ...]:
         if step == "intrinsics":
