@@ -39,19 +39,25 @@ class Person:
 
     def show(self, pose: Any, board: Board, text: str) -> bool:
         """Ask for the board, and return whether it is held there now."""
-        return self.session.confirm(f"{text}. Is it there?", False)
+        return self._held(text)
 
     def away(self) -> None:
         """Ask for nothing: what the next step needs, it asks itself."""
 
     def give(self, robot: str, board: Board, text: str) -> bool:
         """Ask for the board in the hand of a robot, and return whether it is there."""
+        return self._held(text)
+
+    def _held(self, text: str) -> bool:
+        if sys.stdin is None or not sys.stdin.isatty():
+            hint = "a person holds the board, at a terminal beside the table; on the emulated bench `--hands simulated`"
+            raise PicoError(error("usage", f"nobody can be asked here: {text}", hint=hint))
         return self.session.confirm(f"{text}. Is it there?", False)
 
     def read(self, address: str, unit: str, text: str) -> float:
         """Ask for what a scale shows, until it is a number."""
         if sys.stdin is None or not sys.stdin.isatty():
-            hint = "a person reads the scale, at a terminal beside the table"
+            hint = "a person reads the scale, at a terminal beside the table; on the emulated bench `--hands simulated`"
             raise PicoError(error("usage", f"nobody can be asked here: {text}", hint=hint))
         while True:
             write(sys.stdout, f"{text} [{unit}] ", end="")

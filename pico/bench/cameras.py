@@ -62,10 +62,10 @@ class Cameras:
     def _simulated(self, found: Calibration) -> dict[str, Provenance]:
         """Return how each result came about: in the simulator."""
         by = person_of(self.opened) or ""
-        from pico.vision.calibration_files import subjects_of
+        from pico.vision.calibration_files import results_of
 
         known = {step: Provenance(bench="sim", evidence="simulated", at=found.made_at, by=by, procedure="simulated/1")
-                 for step in subjects_of(found)}  # fmt: skip
+                 for step in results_of(found)}  # fmt: skip
         left = {name: round(value, 4) for name, value in found.residuals.items()}
         return {step: replace(how, residual=left.get(step.partition("/")[2]), unit="px") if "trinsics/" in step else how
                 for step, how in known.items()}  # fmt: skip

@@ -84,7 +84,7 @@ def refused(found: Calibration, root: Path, bench: str) -> list[Diagnostic]:
     for step, how in found.provenance.items():
         if how.evidence != accepted:
             others.setdefault((how.evidence, how.bench), []).append(step)
-    unsaid = sorted(set(subjects_of(found)) - found.provenance.keys())
+    unsaid = sorted(set(results_of(found)) - found.provenance.keys())
     if unsaid and accepted != "simulated":  # what does not say where it came from counts as simulated
         others.setdefault(("simulated", "not stated"), []).extend(unsaid)
     return [
@@ -96,7 +96,7 @@ def refused(found: Calibration, root: Path, bench: str) -> list[Diagnostic]:
     ]  # fmt: skip
 
 
-def subjects_of(found: Calibration) -> tuple[str, ...]:
+def results_of(found: Calibration) -> tuple[str, ...]:
     """Return the results of a calibration as its provenance names them."""
     cameras = [f"{step}/{name}" for name in found.cameras for step in ("intrinsics", "extrinsics")]
     of = {"arms": found.arms, "axes": found.axes, "dark": found.dark}

@@ -18,6 +18,7 @@ from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
+from pico.model.calibration.results import AxisZero
 from pico.model.catalog import Footprint
 from pico.model.comparing.drift import drift_of
 from pico.model.comparing.status import compare
@@ -260,3 +261,15 @@ def test_markers_that_were_swapped_are_told_until_something_is_moved(tmp_path: P
         assert len(texts) == 2 and texts[0].startswith("lx_100 stands where p2 stood at the last look")
     change(tmp_path, lambda w: nudge(SETUP, w, "p2", dx=8))
     assert said(observe(tmp_path), "marker-swapped") == []
+
+
+def test_a_calibration_of_axes_or_some_cameras_leaves_the_other_cameras_as_the_lab_has_them(tmp_path: Path) -> None:
+    before = look(tmp_path)
+    true = sim(SETUP, tmp_path).world.true_cameras()
+    for cameras in ({}, {"left": true["left"]}):
+        write_calibration(
+            tmp_path, "sim", Calibration(cameras, axes={"p1.angle": AxisZero(direction=1, zero=1.0, sigma=0.1)})
+        )
+        seen = look(tmp_path)
+        assert seen.observation.components.keys() == before.observation.components.keys()
+        assert seen.observation.components["p1"].pose == before.observation.components["p1"].pose

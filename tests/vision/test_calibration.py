@@ -27,7 +27,7 @@ from pico.vision.calibration_files import (
     not_counting,
     other_devices,
     read_calibration,
-    subjects_of,
+    results_of,
     write_calibration,
 )
 from pico.vision.charuco import BOARD, BoardView, board_image, charuco, find_board
@@ -220,7 +220,7 @@ def test_a_calibration_of_before_counts_as_simulated_and_keeps_its_digest(tmp_pa
 def test_a_bench_refuses_what_was_found_elsewhere_and_names_both(tmp_path: Path, bench: str, evidence: str) -> None:
     own = {"hardware": "measured", "emulated": "emulated"}[bench]
     found = Calibration(stereo())
-    steps = dict.fromkeys(subjects_of(found), provenance(evidence=own))
+    steps = dict.fromkeys(results_of(found), provenance(evidence=own))
     write_calibration(tmp_path, bench, replace(found, provenance=steps))
     assert read_calibration(tmp_path, bench) is not None
     strange = {**steps, "extrinsics/left": provenance(bench="elsewhere", evidence=evidence)}

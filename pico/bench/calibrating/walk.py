@@ -25,10 +25,10 @@ from pico.cameras.lens_files import read_lens
 from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
 from pico.edge.local import LocalEdge
 from pico.model.calibration.results import ACCEPTED, Provenance
-from pico.model.calibration.steps import BEFORE, STEPS, CalibrationStep, StepStanding
+from pico.model.calibration.steps import BEFORE, STEPS, CalibrationStep, StepStanding, refusal
 from pico.model.record import record
 from pico.vision.calibration import Accuracy, Calibration
-from pico.vision.calibration_files import calibration_file, stored_calibration, write_calibration
+from pico.vision.calibration_files import calibration_file, results_of, stored_calibration, write_calibration
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BOARD, Board
 from pico.vision.nominal import camera_models
@@ -199,9 +199,10 @@ class CalibrationWalk:
 
     def _drop_refused(self) -> None:
         """Take out of the calibration what the bench refuses: of other evidence, and of other devices. Git keeps it."""
-        known = self._known()
-        wrong = {f"{row.step}/{row.subject}": row.why for row in standing_of(self.device, self.edge.now())
-                 if row.how is not None and ("accepts" in row.why or "answers" in row.why)}  # fmt: skip
+        known, who = self._known(), self.bench.wait(self.device.links.instruments()).who
+        serials = {name: one.serial for name, one in who.items()}
+        results = {name: known.provenance.get(name) for name in (*results_of(known), *known.provenance)}
+        wrong = {name: why for name, how in results.items() if (why := refusal(how, self.device.bench, serials))}
         if not wrong:
             return
         for name, why in wrong.items():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pico.base import clock
@@ -13,7 +14,7 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.model.calibration.steps import STEPS, StepStanding
 from pico.model.commissioning import CODE
 from pico.model.observation import Observation
-from pico.vision.calibration_files import command, read_calibration
+from pico.vision.calibration_files import command, not_counting, read_calibration
 
 FIRST_HAND = ("", "stereo", "known height")
 """How a pose is known that was seen just now."""
@@ -27,6 +28,7 @@ def calibration(at: AtBench) -> Found:
     at.bench.wait(at.device.links.instruments())
     rows = standing_of(at.device, at.edge.now())
     wrong = [*_missing(rows, name)]
+    wrong += [replace(one, severity="error") for one in not_counting(root, name)]
     if not wrong:
         wrong = [one for one in at.bench.cameras.scan().observation.problems if one.severity == "error"]
     known = None if wrong else read_calibration(root, name)

@@ -57,6 +57,12 @@ def standing(
     return tuple(rows)
 
 
+def refusal(how: Provenance | None, bench: str, serials: Mapping[str, str]) -> str:
+    """Return why a bench refuses a result for where it came from, empty if it does not; one that does not say it counts
+    as simulated. `serials`: of the devices that answer, by device."""
+    return _why(how or Provenance(bench="sim", evidence="simulated"), bench, serials, None, None)
+
+
 def _why(how: Provenance, bench: str, serials: Mapping[str, str], age: float | None, lasts: float | None) -> str:
     if how.evidence != ACCEPTED.get(bench, how.evidence):
         return f"its result is {how.evidence} (bench {how.bench}), and {bench} accepts only {ACCEPTED[bench]} ones"
