@@ -21,6 +21,7 @@ EARLIER = "calibration.json"
 """The file of labs of before: it says nothing of where it came from, and counts as simulated."""
 LARGEST = 4 * 1024 * 1024
 CODE = "calibration-file"
+_SEEN = ("intrinsics/", "extrinsics/", "arms/")
 SIMULATED = "sim"
 """The bench that reads the file of before."""
 
@@ -155,8 +156,13 @@ def calibration_digest(root: Path, bench: str) -> str | None:
 
 
 def made_at(root: Path, bench: str) -> str:
-    """Return when the calibration of a bench was changed last, empty without one; reads no more than the file."""
-    return str((_document(root, bench) or {}).get("made_at", ""))
+    """Return when the oldest of what is known of the cameras and arms of a bench was found, empty without any; reads no
+    more than the file."""
+    data = _document(root, bench) or {}
+    results = data.get("provenance") if isinstance(data.get("provenance"), dict) else {}
+    found = [str(how["at"]) for step, how in (results or {}).items()
+             if step.startswith(_SEEN) and isinstance(how, dict) and how.get("at")]  # fmt: skip
+    return min(found) if found else str(data.get("made_at", ""))
 
 
 def _document(root: Path, bench: str) -> dict[str, Any] | None:

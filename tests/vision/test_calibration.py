@@ -24,6 +24,7 @@ from pico.vision.calibration import Calibration
 from pico.vision.calibration_files import (
     calibration_digest,
     known_arms,
+    made_at,
     not_counting,
     other_devices,
     read_calibration,
@@ -259,6 +260,14 @@ def test_axes_and_dark_levels_are_kept_with_how_they_were_found(tmp_path: Path) 
     )
     write_calibration(tmp_path, "hardware", made)
     again = read_calibration(tmp_path, "hardware")
+    assert made_at(tmp_path, "hardware") == ""
+    cameras = {f"extrinsics/{n}": provenance(at=f"2026-0{n}-01T00:00:00Z") for n in (5, 3, 7)}
+    write_calibration(
+        tmp_path, "emulated", replace(made, made_at="2026-11-01", provenance={**made.provenance, **cameras})
+    )
+    assert made_at(tmp_path, "emulated") == "2026-03-01T00:00:00Z", (
+        "an axis that was calibrated since makes no camera newer"
+    )
     assert again is not None and (again.axes, again.dark, again.provenance) == (axes, dark, made.provenance)
     assert made.digest != Calibration({}).digest
     plain = conversion(Wired(property="angle", scale=2.0, offset=5.0), "rad", "deg")
