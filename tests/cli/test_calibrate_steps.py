@@ -143,3 +143,33 @@ def test_a_lens_that_was_calibrated_elsewhere_needs_no_board(wired: Path, pico: 
         off = known.cameras[name].pose[:3, 3] - true[name].pose[:3, 3]
         assert np.all(np.abs(off) < 4 * np.array([how.uncertainty[f"{axis}_mm"] for axis in "xyz"])), (off, how)
         assert known.provenance[f"intrinsics/{name}"].procedure == f"imported/1: {name}.json"
+
+
+METER = """  pm_meter:
+    driver: scpi.meter
+    of: pm
+    address: {visa: "TCPIP0::pm.invalid::5025::SOCKET"}
+  curtain_box:"""
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not (there and find_spec("pyvisa_py")), reason="the extras xarm, thorlabs and scpi")
+def test_what_a_meter_reads_without_light_is_found_and_taken_off(wired: Path, pico: Pico) -> None:
+    edit(
+        wired / "lab.yaml", "    camera_position: 3 mm\n    camera_rotation: 1 deg\n", ""
+    )  # by which it could not observe
+    edit(wired / "lab.yaml", "devices: {p1.angle", "devices: {pm.power: {dark: 0.002}, p1.angle")
+    edit(
+        wired / "lab.yaml",
+        "inventory:\n",
+        "inventory:\n  pm:\n    type: power_meter\n    pose: {x: 900, y: 700, yaw: 0}\n",
+    )
+    edit(wired / "devices.yaml", "  curtain_box:", METER)
+    found = pico(*EMULATED, "calibrate", "dark", "--hands", "simulated", "-y")
+    assert found.code == 2 and "pm.power: 0.00" in found.out, found.out + found.err
+    known = read_calibration(wired, "emulated")
+    assert known is not None
+    dark = known.dark["pm.power"]
+    assert abs(dark.level - 0.002) < 4 * dark.sigma and dark.unit == "mW"
+    read = pico(*EMULATED, "measure", "pm.power", "--json").data
+    assert abs(read["value"]) < 5 * dark.noise and read["settings"]["calibration"] == known.digest
