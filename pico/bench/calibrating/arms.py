@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
+    from pico.vision.frame import Frame
+
     Array = NDArray[np.float64]
 
 PROCEDURE = "arms/1"
@@ -168,14 +170,20 @@ async def _showing(
     arm = (await at.device.links.instruments()).arms[robot]
     read = np.mean([(await arm.state()).joints for _ in range(READS)], axis=0)
     frames = {name: await at.device.picture(name) for name in cameras}
+    board = await asyncio.to_thread(_board, at, robot, frames, cameras)  # the loop hears of the arm meanwhile
+    await at.device.walk(path, speed)
+    return Posture(take, read, board)
+
+
+def _board(at: AtTable, robot: str, frames: Mapping[str, Frame], cameras: Mapping[str, CameraModel]) -> Array | None:
+    """Where the board is (4, 4) that these pictures show; None if it is not seen well enough."""
     found = {name: view for name, frame in frames.items() if (view := find_board(frame, at.board)) is not None}
     for name, view in found.items():
         corners_drawn(frames[name].gray, [view.pixels], at.pictures / f"arms-{robot}-{name}.png")
-    await at.device.walk(path, speed)
     if len(found) < min(2, len(cameras)):
-        return Posture(take, read, None)
+        return None
     board, left = board_in(list(found.values()), [cameras[name] for name in found])
-    return Posture(take, read, board if left < MISFIT else None)
+    return board if left < MISFIT else None
 
 
 def _held_out(robot: str, known: Any, read: Array, boards: Array, takes: Sequence[int]) -> float | None:
