@@ -52,7 +52,7 @@ from pico.model.setup import Setup  # noqa: E402
 from pico.model.simulated import ArmErrors, BadLight, SimErrors  # noqa: E402
 from pico.motion.arms import ArmMotion  # noqa: E402
 from pico.motion.types import Blocked  # noqa: E402
-from pico.vision.calibration import write_calibration  # noqa: E402
+from pico.vision.calibration_files import write_calibration  # noqa: E402
 
 APART = 100.0
 """Least distance of a goal from any other part's origin [mm]."""
@@ -179,7 +179,7 @@ def main() -> int:
         with tempfile.TemporaryDirectory() as folder:
             if given.arms == "calibrated":
                 true = true_cameras(setup, setup.lab.sim.errors, seed)
-                write_calibration(Path(folder), calibrate(setup, true, seed))
+                write_calibration(Path(folder), "sim", calibrate(setup, true, seed))
             if given.light and seed % 2 == 0:
                 setup = lit(setup, LIGHT[seed // 2 % len(LIGHT)])
             made = list(moves(setup, Path(folder), min(each, given.moves - len(done)), seed))

@@ -228,7 +228,7 @@ CASES: dict[str, Case] = {
     "undo": Case(("undo", "--auto-approve"), (("apply", "e1", "--auto-approve"),), adds=True),
     "resume": Case(("resume", "--auto-approve"), (held,)),
     "recover": Case(("recover", "--auto-approve"), (held,)),
-    "calibrate": Case(("calibrate",), out="calibration.json"),
+    "calibrate": Case(("calibrate",), out="calibration/sim.json"),
     "calibrate markers": Case(("calibrate", "markers", "--out", "m.pdf"), out="m.pdf"),
     "sim nudge": Case(NUDGED, adds=True),
     "sim reset": Case(("sim", "reset")),

@@ -88,7 +88,7 @@ def bench_of(folder: Path, seed: int, *, passive: bool, sighted: bool) -> None:
     if sighted:
         with pico.open(folder) as bench:
             bench.cameras.calibrate()
-        git(folder, "add", "calibration.json")
+        git(folder, "add", "calibration/sim.json")
     git(folder, "commit", "--allow-empty", "-aqm", f"seed {seed}")
 
 

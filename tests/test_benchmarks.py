@@ -20,6 +20,7 @@ SMALLEST = {
     "blame": "--commits 12 --components 10 --files 2 --merges --runs",
     "by_sight": "--moves 1 --seeds 1",
     "calibration": "--only odd --scenes 1",
+    "calibration_procedure": "--seeds 1 --shots 8 --pixels 1224",
     "carrying": "--components 30 --commits 5 --repeat 1",
     "cleared_faults": "--cases 3",
     "commits": "--processes 2 --each 1 --kills 2 --capture 30",

@@ -56,6 +56,7 @@ ELSEWHERE = {
     "split.lock": "old layouts", "cas/**": "labs outside Git", "gui/**": "the page",
     ".git/pico/[LAB-]/remotes.json": "coordinators", ".git/pico/[LAB-]/gui.lock": "the page",
     ".git/pico/cas/**": "measurements", ".git/pico/COMMIT_EDITMSG": "editors", "benches/BENCH/stop.json": "stops",
+    "benches/BENCH/calibrating.json": "calibrations", "benches/BENCH/calibrating/**": "calibrations",
     "benches/BENCH/guard.json": "lasers with devices", "benches/BENCH/table-lock.json": "people at the table",
 }  # fmt: skip
 """Entries that the session below leaves no file of, each with what does."""

@@ -35,5 +35,5 @@ def _arm(name: str, arm: FoundArm) -> str:
 
 
 def data(calibration: Calibration, **_: Any) -> dict[str, Any]:
-    """Return schema `pico.calibration/v1`, with its `digest`."""
+    """Return schema `pico.calibration/v2`, with its `digest`."""
     return {**calibration.as_json(), "digest": calibration.digest}

@@ -67,11 +67,19 @@ def look(
     seen or put down before.
     """
     held = {robot.holding for robot in known.robots.values() if robot.holding}
+    calibration = _of_all(frames, calibration)
     sighting, cameras = seen_by(setup, frames, calibration, held)
     seen = _observation(setup, sighting, cameras, known, last, calibration is not None)
     if not any(problem.code in BLIND for problem in seen.problems):
         seen = with_unidentified(setup, seen, frames, cameras.cameras)
     return Look(seen, sighting, tuple(frames), cameras)
+
+
+def _of_all(frames: Sequence[Frame], calibration: Calibration | None) -> Calibration | None:
+    """Return the calibration if it knows every camera that took a picture; one of axes or arms alone, or of some of the
+    cameras, says nothing of the others."""
+    known = calibration.cameras.keys() if calibration is not None else ()
+    return calibration if all(frame.camera in known for frame in frames) else None
 
 
 def require_trusted(seen: Observation) -> Observation:
@@ -93,6 +101,7 @@ def seen_by(
 
     dark = tuple(frame.camera for frame in frames if frame.black)
     pictures = [detect(frame) for frame in frames if not frame.black]
+    calibration = _of_all(frames, calibration)
     basis = calibration or Calibration(camera_models(setup))
     right = {p.camera: anchored(setup, basis.cameras[p.camera], p) for p in pictures}
     cameras = replace(basis, cameras={**basis.cameras, **right})

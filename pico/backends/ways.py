@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 
 from pico.backends import checks
 from pico.model.observation import Observation
@@ -50,6 +51,16 @@ def parking(setup: Setup, motion: Motion, seen: Observation, robot: str) -> Move
     """Return the way of an arm to its park pose."""
     joints = seen.robots[robot].joints
     return motion.park(robot, joints, checks.standing(setup, seen), elsewhere(seen, robot))
+
+
+def backwards(path: MovePath, start: Joints) -> MovePath:
+    """Return a path the other way round, from `start`, which is where it ends but for a hair."""
+    segments = [
+        replace(one, times=tuple(one.seconds - t for t in reversed(one.times)), joints=tuple(reversed(one.joints)))
+        for one in reversed(path.segments)
+    ]
+    segments[0] = replace(segments[0], joints=(start, *segments[0].joints[1:]))
+    return replace(path, segments=tuple(segments))
 
 
 def using(

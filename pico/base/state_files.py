@@ -139,6 +139,16 @@ DEVICES = StateFile(
     "these set-points", ASIDE + "; then set the values again with `pico apply`",
 )  # fmt: skip
 
+CALIBRATING = StateFile(
+    BENCH + "calibrating.json", "memory", "what a calibration under way has found: corners of the board, lenses",
+    "`pico calibrate` on a bench with devices", "the pictures of the board: they are taken again", "",
+    Format("pico.calibrating"),
+)  # fmt: skip
+CALIBRATION_PICTURES = StateFile(
+    BENCH + "calibrating/**", "memory", "a picture of each step of a calibration, to look at",
+    "`pico calibrate` on a bench with devices", "these pictures", "", text="PNG",
+)  # fmt: skip
+
 # of the simulated and the emulated bench
 
 WORLD = StateFile(
@@ -292,7 +302,8 @@ ALL = (
     DAMAGED, HOLDER, STOP, DOSE, UNATTENDED, ARMED, GUARD, TABLE_LOCK, LOCK, UNATTENDED_LOCK, JOURNAL, OWN_LAB,
     MORNINGS,
     RECIPE_LOG, RECIPE_LINES, RECIPE_OUTPUT, CHANGE_COUNT,
-    RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
+    RECIPE_PROCESS, POINTS, CALLED, RUN_MARK, SEEN, HANDS, SETTINGS, DEVICES, CALIBRATING,
+    CALIBRATION_PICTURES, WORLD, FAULTS, ENROLMENT, GATE, EDGE,
     SESSION, RUNS_BEGUN, DETACHED, REPLACED, INCOMING, IGNORE, CHOSEN, AUDIT, CLAIMS, LAYOUT, UNSORTED,
     EARLIER, SPLITTING, SPLIT_LOCK, DATA, PAGE, RECORD, RECORD_LOCK, SEALS, ARMED_SEAL, REMOTES, PAGE_LOCK,
     GIT_CACHES, GIT_DATA, GIT_LOCK, GIT_MESSAGE,

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from pico.bench.lasers import person_of
 from pico.bench.opened import Opened
 from pico.diagnostics import Diagnostic, PicoError, error
+from pico.model.calibration.results import Provenance
 from pico.model.request import require_component
 
 if TYPE_CHECKING:
@@ -47,13 +50,25 @@ class Cameras:
         """Find out where the cameras are and how the arms are built, from pictures of the board and the datums and from
         encoders, and write that into the lab's folder. Takes about half a minute. Raises PicoError."""
         from pico.cameras.calibrating import calibrate
-        from pico.vision.calibration import write_calibration
+        from pico.vision.calibration_files import SIMULATED, write_calibration
 
         setup, sim = self.opened.setup, self.opened.sim
         self._require_empty_hands()
         found = calibrate(setup, sim.true_cameras(), setup.lab.sim.seed, sim.true_arms())
-        write_calibration(self.opened.root, found)
+        found = replace(found, provenance=self._simulated(found))
+        write_calibration(self.opened.root, SIMULATED, found)
         return found
+
+    def _simulated(self, found: Calibration) -> dict[str, Provenance]:
+        """Return how each result came about: in the simulator."""
+        by = person_of(self.opened) or ""
+        from pico.vision.calibration_files import results_of
+
+        known = {step: Provenance(bench="sim", evidence="simulated", at=found.made_at, by=by, procedure="simulated/1")
+                 for step in results_of(found)}  # fmt: skip
+        left = {name: round(value, 4) for name, value in found.residuals.items()}
+        return {step: replace(how, residual=left.get(step.partition("/")[2]), unit="px") if "trinsics/" in step else how
+                for step, how in known.items()}  # fmt: skip
 
     def _require_empty_hands(self) -> None:
         exact = self.opened.setup.lab.sim.observe == "exact"

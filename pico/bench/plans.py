@@ -29,7 +29,7 @@ from pico.model.state import LabState, place_of, with_values
 from pico.motion.deferred import DeferredMotion
 from pico.policy.expired import expired
 from pico.policy.judging.judges import judge_plan, refusal_of
-from pico.vision.calibration import calibration_digest, made_at
+from pico.vision.calibration_files import calibration_digest, made_at
 
 if TYPE_CHECKING:
     from pico.history.restoring.selected import SelectedParts
@@ -110,11 +110,13 @@ class Plans:
             source=manifests.source,
         )  # fmt: skip
         seen = self.opened.observe()
-        old = expired(self.opened.setup, made_at(folder.root), clock.now())
+        old = expired(self.opened.setup, made_at(folder.root, self.opened.backend_name), clock.now())
         told = (*cut_short(self.opened, seen), *_strangers(seen), *old, *manifests.told)
         if revision and not targets:
             told = (*told, *self._stays(seen, wanted, revision))
-        return self.to_state(seen, goal, told=told, calibration=calibration_digest(folder.root))
+        return self.to_state(
+            seen, goal, told=told, calibration=calibration_digest(folder.root, self.opened.backend_name)
+        )
 
     def aligns(self, asked: bool | None = None) -> bool:
         """Return whether a plan is to redo goals: as somebody asked, else as the policy of the lab says."""

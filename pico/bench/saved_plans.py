@@ -83,9 +83,9 @@ def _goal(opened: Opened, plan: Plan) -> Iterator[Diagnostic]:
 
 
 def _calibration(opened: Opened, plan: Plan) -> Iterator[Diagnostic]:
-    from pico.vision.calibration import calibration_digest
+    from pico.vision.calibration_files import calibration_digest
 
-    now = calibration_digest(opened.root)
+    now = calibration_digest(opened.root, opened.backend_name)
     if now != plan.calibration:
         yield stale("", f"the calibration of the cameras is {_short(now)} now, and was {_short(plan.calibration)}")
 

@@ -92,7 +92,7 @@ def photograph_sheets(camera: CameraModel, sheets: Sequence[Sheet], settings: Ca
     width, height = camera.pixels
     picture: Any = np.full((height, width), _TABLE, np.float32)
     for sheet in sheets:
-        _draw(picture, camera, sheet)
+        draw_sheet(picture, camera, sheet)
     if settings.blur > 0:
         picture = cv2.GaussianBlur(picture, (0, 0), settings.blur)
     noise = random.standard_normal(picture.shape, np.float32) * np.float32(settings.noise)
@@ -100,7 +100,8 @@ def photograph_sheets(camera: CameraModel, sheets: Sequence[Sheet], settings: Ca
     return Frame(gray, (0, 0), camera.name, 0.0)
 
 
-def _draw(picture: Any, camera: CameraModel, sheet: Sheet) -> None:
+def draw_sheet(picture: Any, camera: CameraModel, sheet: Sheet) -> None:
+    """Draw a flat print into the whole picture (rows, columns) of a camera that stands in the table's frame."""
     import cv2
     import numpy as np
 

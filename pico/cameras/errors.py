@@ -58,7 +58,9 @@ def _wrong(camera: CameraModel, errors: SimErrors, seed: int) -> CameraModel:
     pose[:3, 3] += errors.camera_position * direction(random)
     pose[:3, :3] = turned(errors.camera_rotation * direction(random)) @ pose[:3, :3]
     matrix[:2, :2] *= 1 + errors.focal_length * random.choice((-1.0, 1.0))
-    return replace(camera, pose=pose, matrix=matrix)
+    distortion = camera.distortion.copy()
+    distortion[0] += (errors.distortion or 0.0) * random.choice((-1.0, 1.0))
+    return replace(camera, pose=pose, matrix=matrix, distortion=distortion)
 
 
 def bumped(camera: CameraModel, by: CameraShift) -> CameraModel:

@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.cameras.bad_light import lit_badly
+from pico.cameras.board import Sheet, draw_sheet
 from pico.cameras.errors import true_cameras
 from pico.cameras.markers import draw_markers
 from pico.cameras.stickers import Sticker, stickers
@@ -77,10 +78,17 @@ class Eyes:
         camera = self.cameras[name]
         return camera if camera.robot is None else camera.placed(tool_pose(self.model, self.data, camera.robot))
 
-    def frame(self, name: str, region: Region | None = None) -> Frame:
+    def light(self, name: str) -> Gray:
+        """Return what light brings to the whole sensor of the camera `name` now, see `frame`. Raises KeyError."""
+        return self._exposed(self._view(name, None))
+
+    def frame(
+        self, name: str, region: Region | None = None, *, light: Gray | None = None, sheets: Sequence[Sheet] = ()
+    ) -> Frame:
         """Return what the camera `name` delivers now, of the whole sensor or of a `region` of it. Raises KeyError.
 
-        A region is clipped to the sensor. A lost frame is black.
+        A region is clipped to the sensor. A lost frame is black. `light`: what `light` returned of the same scene, to
+        be taken again; `sheets`: prints that somebody holds before the camera, of a whole sensor alone.
         """
         import cv2
         import numpy as np
@@ -92,10 +100,12 @@ class Eyes:
         if self._random.random() < self.errors.lost_frames:
             picture = np.full((height, width), _DARK, np.float32)
         else:
-            picture = self._exposed(view)
+            picture = self._exposed(view) if light is None else light.copy()
+            for sheet in sheets:
+                draw_sheet(picture, view.camera, sheet)
             blur = settings.blur
-            if light := self.errors.light:
-                picture, blur = lit_badly(picture, view, light, self._seed), math.hypot(blur, light.defocus)
+            if bad := self.errors.light:
+                picture, blur = lit_badly(picture, view, bad, self._seed), math.hypot(blur, bad.defocus)
             if blur > 0:
                 picture = cv2.GaussianBlur(picture, (0, 0), blur)
         noise = self._noise(picture.shape, settings.noise * self.errors.noise)

@@ -81,21 +81,34 @@ class Environment:
 
 
 @record
+class DeviceError:
+    """What is wrong with an emulated device, and not known to what reads it: the value of a tunable is what the lab's
+    `map` makes of the device's number, `reversed` or not, plus `zero`; a meter reads `dark` without light. Both are in
+    the unit of the tunable or measurable."""
+
+    zero: float = 0.0
+    reversed: bool = False
+    dark: float = 0.0
+
+
+@record
 class SimErrors:
     """What is wrong with the simulated cameras, markers and arms, and not known to what looks through them.
 
     Each camera is displaced by `camera_position` [mm] in a random direction, turned by `camera_rotation` [deg] about a
-    random axis, and its focal length is wrong by the share `focal_length`, up or down. `marker_height`: sigma by which
-    a marker lies above or below where its type says [mm]. `lost_frames`: share of pictures that come out black.
+    random axis, its focal length is wrong by the share `focal_length` and k1 of its lens by `distortion`, up or down.
+    `marker_height`: sigma by which a marker lies above or below where its type says [mm]. `lost_frames`: share of
+    pictures that come out black.
     `noise`: factor on the sensors' noise. `seat`: how far off a part comes to sit that is put down, as a multiple of
     its type's repeatability; where it is left out 1 in physics, and 0 (exactly) in kinematic fidelity. `arm`: what is
-    wrong with arms, `light`: with the light, `sensor`: with the sensors of beam cameras; nothing where they are left
-    out.
+    wrong with arms, `light`: with the light, `sensor`: with the sensors of beam cameras, `devices`: with emulated
+    devices, by the address of what they set or read (`p1.angle`); nothing where they are left out.
     """
 
     camera_position: Length = 0.0
     camera_rotation: Angle = 0.0
     focal_length: float = 0.0
+    distortion: float | None = None
     marker_height: Length = 0.0
     lost_frames: float = 0.0
     noise: float = 1.0
@@ -103,6 +116,7 @@ class SimErrors:
     arm: ArmErrors | None = None
     light: BadLight | None = None
     sensor: SensorErrors | None = None
+    devices: Mapping[str, DeviceError] | None = None
 
     def __post_init__(self) -> None:
         if self.seat is not None and not 0 <= self.seat <= 10:

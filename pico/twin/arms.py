@@ -80,13 +80,17 @@ class TwinArm:
 
     def tool(self, joints: Joints, slack: Array | None) -> Pose:
         """Return where the tool really is for nominal `joints`, seen from above."""
+        pose = self.tool_in_space(joints, slack)
+        return Pose(float(pose[0, 3]), float(pose[1, 3]), math.degrees(math.atan2(pose[1, 1], pose[0, 1])))
+
+    def tool_in_space(self, joints: Joints, slack: Array | None) -> Array:
+        """Return the pose (4, 4) that the tool really has for nominal `joints` [mm]."""
         import numpy as np
 
         from pico.motion.built.poses import reached
 
         motors = self.told(np.array([joints]))
-        pose = reached(self.robot, motors if slack is None else motors - slack, self.built).tools[0]
-        return Pose(float(pose[0, 3]), float(pose[1, 3]), math.degrees(math.atan2(pose[1, 1], pose[0, 1])))
+        return reached(self.robot, motors if slack is None else motors - slack, self.built).tools[0]  # type: ignore[no-any-return]
 
     def error(self, instant: int) -> Array:
         """Return what encoders read too much (7,) at an instant, the same whenever it is asked for."""

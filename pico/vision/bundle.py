@@ -49,10 +49,12 @@ class Bundle:
     residuals: Mapping[str, float]
     position: float
     boards: Mapping[int, Array]
+    sigmas: Mapping[str, Array]
+    """One standard deviation of each number of a camera (15,): nine of its lens, its place [mm], its turn [rad]."""
 
 
 def lens(camera: CameraModel) -> Array:
-    """Return the nine numbers of a camera's lens."""
+    """Return the numbers of a camera's lens: fx, fy, cx, cy and its distortion."""
     import numpy as np
 
     k = camera.matrix
@@ -95,7 +97,7 @@ def bundle(
     """
     import numpy as np
 
-    seen = {name: _datums(setup, datums[name]) for name in start}
+    seen = {name: datums_in(setup, datums[name]) for name in start}
     _refuse(shots, seen)
     cameras: dict[str, CameraModel] = {}
     boards: dict[int, Array] = {}
@@ -112,7 +114,7 @@ def bundle(
     fitted, held = problem.at(found.parameters)
     residuals = problem.left(found)
     _refuse_misfit(residuals)
-    return Bundle(fitted, residuals, _position(fitted, seen, found), held)
+    return Bundle(fitted, residuals, _position(fitted, seen, found), held, _sigmas(fitted, found))
 
 
 def _refuse_misfit(residuals: Mapping[str, float]) -> None:
@@ -187,6 +189,14 @@ class _Problem:
         }
 
 
+def _sigmas(cameras: Mapping[str, CameraModel], found: Solution) -> dict[str, Array]:
+    import numpy as np
+
+    each = (LENS + 6) * len(cameras)
+    sigmas = np.sqrt(np.maximum(np.diag(found.covariance)[:each], 0.0)) * max(1.0, found.rms)
+    return dict(zip(cameras, sigmas.reshape(len(cameras), LENS + 6), strict=True))
+
+
 def _position(cameras: Mapping[str, CameraModel], seen: Mapping[str, tuple[Array, Array]], found: Solution) -> float:
     """Return what the uncertainty of lens and pose does to a position on the table [mm], at the datums."""
     import numpy as np
@@ -208,7 +218,7 @@ def _shifted(camera: CameraModel, change: Array) -> CameraModel:
     return with_lens(replace(camera, pose=moved(camera.pose, change[LENS:])), lens(camera) + change[:LENS])
 
 
-def _datums(setup: Setup, picture: Markers) -> tuple[Array, Array]:
+def datums_in(setup: Setup, picture: Markers) -> tuple[Array, Array]:
     """Return corners (n, 3) [mm] of the datums that a picture shows, and where they are seen (n, 2) [pixels]."""
     import numpy as np
 

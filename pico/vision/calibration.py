@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pico.base.formats import Format
-from pico.diagnostics import PicoError, error
-from pico.disk import write_whole
+from pico.base.formats import Document, Format
+from pico.model.calibration.results import AxisZero, DarkLevel, Provenance
 from pico.model.record import as_json, digest, record
 from pico.vision.arm import ArmOffsets, FoundArm
 from pico.vision.camera import CameraModel
@@ -41,14 +38,21 @@ class Accuracy:
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """The cameras of a bench, and its arms where these were measured, too. `residuals`: root mean square of each step
-    [pixels]; `made_at`: when it was made."""
+    """The cameras of a bench, and its arms, axes and detectors if these were measured, too."""
 
     cameras: Mapping[str, CameraModel]
     accuracy: Accuracy = field(default_factory=Accuracy)
     residuals: Mapping[str, float] = field(default_factory=dict)
+    """What is left of what each camera saw, root mean square [pixels]."""
     made_at: str = ""
+    """When it was changed last (ISO 8601, UTC)."""
     arms: Mapping[str, FoundArm] = field(default_factory=dict)
+    axes: Mapping[str, AxisZero] = field(default_factory=dict)
+    """Direction and zero of axes, by the address of the tunable."""
+    dark: Mapping[str, DarkLevel] = field(default_factory=dict)
+    """What detectors read without light, by the address of the measurable."""
+    provenance: Mapping[str, Provenance] = field(default_factory=dict)
+    """How each result came about, by step and subject: `intrinsics/left`, `axes/p1.angle`."""
 
     def placed(self, tools: Mapping[str, Array]) -> Calibration:
         """Return the calibration with the eyes of robots in the table's frame; `tools`: pose (4, 4) of each tool."""
@@ -60,84 +64,64 @@ class Calibration:
 
     @property
     def digest(self) -> str:
-        """The digest that plans record: of the cameras and of how well they are known, not of when it was made."""
-        return digest({key: value for key, value in self.as_json().items() if key != "made_at"})
+        """The digest that plans record, see `digest_of`."""
+        return digest_of(self.as_json())
 
     def as_json(self) -> dict[str, Any]:
-        """Return schema `pico.calibration/v1`: cameras with lens, position [mm] and rotation vector [deg]; arms where
-        there are any."""
-        arms = {"arms": as_json(dict(sorted(self.arms.items())), _six)} if self.arms else {}
+        """Return schema `pico.calibration/v2`: cameras with lens, position [mm] and rotation vector [deg]; arms, axes
+        and dark levels if there are any; how each came about."""
+        found = {"arms": (self.arms, _six), "axes": (self.axes, _six), "dark": (self.dark, _nine)}
+        also = {key: as_json(dict(sorted(of.items())), rounding) for key, (of, rounding) in found.items() if of}
         return {
             "schema": FORMAT.schema,
             "made_at": self.made_at,
             "accuracy": as_json(self.accuracy),
             "residuals": {name: round(value, 4) for name, value in sorted(self.residuals.items())},
-            "cameras": {name: _camera_json(camera) for name, camera in sorted(self.cameras.items())},
-            **arms,
+            "cameras": {name: camera_as_json(camera) for name, camera in sorted(self.cameras.items())},
+            **also,
+            "provenance": as_json(dict(sorted(self.provenance.items())), _nine),
         }
 
 
-FORMAT = Format("pico.calibration")
-FILE = "calibration.json"
-"""In the folder of a lab, so that Git keeps what the bench's cameras were when."""
+def _with_provenance(document: Document) -> Document:
+    """Lift version 1, which says nothing of where it came from: it counts as simulated."""
+    at = {"bench": "sim", "evidence": "simulated", "at": document.get("made_at", "")}
+    steps = [f"{step}/{name}" for name in document.get("cameras", {}) for step in ("intrinsics", "extrinsics")]
+    steps += [f"arms/{name}" for name in document.get("arms", {})]
+    return {**document, "schema": "pico.calibration/v2", "provenance": dict.fromkeys(sorted(steps), at)}
 
 
-def write_calibration(folder: Path, calibration: Calibration) -> Path:
-    """Write the calibration into the folder of a lab, and return the file."""
-    path = folder / FILE
-    write_whole(path, (json.dumps(calibration.as_json(), indent=2) + "\n").encode())
-    return path
+FORMAT = Format("pico.calibration", (_with_provenance,))
+_DIGESTED = f"{FORMAT.name}/v1"
+"""The schema that digests are of: the same numbers keep the digest that plans of before recorded."""
+_ABOUT = ("made_at", "provenance")
+"""What of a document says how it came about, and is no part of its digest."""
 
 
-def read_calibration(folder: Path) -> Calibration | None:
-    """Return the calibration in the folder of a lab, or None; raises PicoError where the file is something else."""
-    path = folder / FILE
-    if not path.exists():
-        return None
-    try:
-        return calibration_from_json(json.loads(path.read_text(encoding="utf-8")))
-    except (ValueError, KeyError, TypeError) as exc:
-        hint = "make it again with `pico calibrate`"
-        raise PicoError(error("calibration-file", f"{path} is no calibration: {exc}", hint=hint)) from exc
+def digest_of(document: Mapping[str, Any]) -> str:
+    """Return the digest that plans record of the document of a calibration: of what it says of cameras, arms, axes and
+    detectors and how well these are known, not of when and how that was found."""
+    kept = {key: value for key, value in document.items() if key not in _ABOUT}
+    return digest({**kept, "schema": _DIGESTED} if "schema" in kept else kept)
 
 
 def calibration_from_json(data: object) -> Calibration:
     """Return the calibration whose `as_json` gave `data`; raises ValueError, KeyError or TypeError for other data."""
     document = FORMAT.lifted(data)
     return Calibration(
-        cameras={name: _camera(name, camera) for name, camera in document["cameras"].items()},
+        cameras={name: camera_from_json(name, camera) for name, camera in document["cameras"].items()},
         accuracy=Accuracy(**document["accuracy"]),
         residuals=document["residuals"],
         made_at=document["made_at"],
         arms={name: _arm(arm) for name, arm in document.get("arms", {}).items()},
+        axes={name: AxisZero(**axis) for name, axis in document.get("axes", {}).items()},
+        dark={name: DarkLevel(**level) for name, level in document.get("dark", {}).items()},
+        provenance={name: Provenance(**how) for name, how in document["provenance"].items()},
     )
 
 
-def known_arms(folder: Path) -> dict[str, ArmOffsets]:
-    """Return how the arms are off by the calibration in the folder of a lab, none where there is no such file."""
-    found = read_calibration(folder)
-    return {name: arm.offsets for name, arm in found.arms.items()} if found else {}
-
-
-def calibration_digest(folder: Path) -> str | None:
-    """Return the digest of the calibration in the folder of a lab, or None; reads no more than the file."""
-    try:
-        data = json.loads((folder / FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return None
-    return digest({key: value for key, value in data.items() if key != "made_at"}) if isinstance(data, dict) else None
-
-
-def made_at(folder: Path) -> str:
-    """Return when the calibration in the folder of a lab was made, empty for none; reads no more than the file."""
-    try:
-        data = json.loads((folder / FILE).read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        return ""
-    return str(data.get("made_at", "")) if isinstance(data, dict) else ""
-
-
-def _camera_json(camera: CameraModel) -> dict[str, Any]:
+def camera_as_json(camera: CameraModel) -> dict[str, Any]:
+    """Return a camera as calibrations have it: lens, position [mm] and rotation vector [deg]."""
     import numpy as np
 
     k = camera.matrix
@@ -150,11 +134,16 @@ def _camera_json(camera: CameraModel) -> dict[str, Any]:
         "distortion": _plain(camera.distortion),
         "position": _plain(camera.pose[:3, 3]),
         "rotation": _plain(np.degrees(rotation_vector(camera.pose[:3, :3]))),
+        **({"fisheye": True} if camera.fisheye else {}),
     }
 
 
 def _six(number: float) -> float:
     return round(number, 6)
+
+
+def _nine(number: float) -> float:
+    return float(f"{number:.9g}")
 
 
 def _plain(numbers: Any) -> list[float]:
@@ -166,7 +155,8 @@ def _arm(data: Mapping[str, Any]) -> FoundArm:
     return FoundArm(offsets=ArmOffsets(**offsets), position=data["position"], turn=data["turn"])
 
 
-def _camera(name: str, data: Mapping[str, Any]) -> CameraModel:
+def camera_from_json(name: str, data: Mapping[str, Any]) -> CameraModel:
+    """Return the camera whose `camera_as_json` gave `data`; raises KeyError, TypeError or ValueError."""
     import numpy as np
 
     (fx, fy), (cx, cy) = data["focal"], data["principal"]
@@ -179,4 +169,5 @@ def _camera(name: str, data: Mapping[str, Any]) -> CameraModel:
         motion(rotation(np.radians(data["rotation"])), np.array(data["position"], np.float64)),
         data["robot"],
         data["depth"],
+        data.get("fisheye", False),
     )

@@ -18,8 +18,10 @@ class CameraModel:
 
     `pixels`: width and height. `matrix` (3, 3): focal lengths and principal point [pixels]; the center of the first
     pixel is (0, 0), so that an ideal camera has its principal point at ((w - 1) / 2, (h - 1) / 2). `distortion` (5,):
-    k1, k2, p1, p2, k3 (Brown-Conrady, as OpenCV has them). `pose` (4, 4): of the camera in its `parent` [mm], x right,
-    y down, z into the scene; the parent is the table, or for an eye in the hand the tool (the robot's name in `robot`).
+    k1, k2, p1, p2, k3 (Brown-Conrady, as OpenCV has them); (8,): k4, k5, k6, too (its rational model); (4,): k1 to k4
+    of a `fisheye` lens (J. Kannala and S. Brandt, PAMI 28, 1335 (2006)). `pose` (4, 4): of the camera in its `parent`
+    [mm], x right, y down, z into the scene; the parent is the table, or for an eye in the hand the tool (the robot's
+    name in `robot`).
     """
 
     name: str
@@ -29,6 +31,7 @@ class CameraModel:
     pose: Array
     robot: str | None = None
     depth: bool = field(default=False)
+    fisheye: bool = False
 
     def placed(self, parent: Array) -> CameraModel:
         """Return the camera in the frame in which its parent has the pose `parent` (4, 4) [mm]."""
@@ -42,7 +45,8 @@ class CameraModel:
         import numpy as np
 
         local = (points - self.pose[:3, 3]) @ self.pose[:3, :3]
-        seen, _ = cv2.projectPoints(local.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, self.distortion)
+        project = cv2.fisheye.projectPoints if self.fisheye else cv2.projectPoints
+        seen, _ = project(local.reshape(-1, 1, 3), np.zeros(3), np.zeros(3), self.matrix, self.distortion)
         pixels = np.asarray(seen, np.float64).reshape(-1, 2)
         pixels[local[:, 2] <= 0] = np.nan
         return pixels
@@ -52,6 +56,7 @@ class CameraModel:
         import cv2
         import numpy as np
 
-        flat = cv2.undistortPoints(np.asarray(pixels, np.float64).reshape(-1, 1, 2), self.matrix, self.distortion)
+        undistort = cv2.fisheye.undistortPoints if self.fisheye else cv2.undistortPoints
+        flat = undistort(np.asarray(pixels, np.float64).reshape(-1, 1, 2), self.matrix, self.distortion)
         directions = np.column_stack((np.asarray(flat).reshape(-1, 2), np.ones(len(pixels)))) @ self.pose[:3, :3].T
         return self.pose[:3, 3].copy(), directions / np.linalg.norm(directions, axis=1, keepdims=True)

@@ -18,6 +18,7 @@ from pico.backends.sim.hand import nudge, remove
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose, World, new_world
 from pico.diagnostics import PicoError
+from pico.model.calibration.results import AxisZero
 from pico.model.catalog import Footprint
 from pico.model.comparing.drift import drift_of
 from pico.model.comparing.status import compare
@@ -27,7 +28,8 @@ from pico.model.pose import Pose, angle_between
 from pico.model.setup import Setup
 from pico.model.simulated import BadLight, SimErrors
 from pico.model.state import LabState, home_state
-from pico.vision.calibration import Accuracy, Calibration, write_calibration
+from pico.vision.calibration import Accuracy, Calibration
+from pico.vision.calibration_files import write_calibration
 
 ERRORS = SimErrors(camera_position=0.2, camera_rotation=0.05, focal_length=0.005, marker_height=0.1)
 STATE: LabState = shel()[1]
@@ -207,7 +209,7 @@ def calibrated(root: Path, position: float = 0.02) -> None:
     """Write a calibration as a perfect one would be; `position`: how well it is said to hold [mm]."""
     accuracy = Accuracy(position=position)
     cameras = sim(SETUP, root).world.true_cameras()
-    write_calibration(root, Calibration(cameras, accuracy, dict.fromkeys(cameras, 0.0), "2026-11-01T12:00:00Z"))
+    write_calibration(root, "sim", Calibration(cameras, accuracy, dict.fromkeys(cameras, 0.0), "2026-11-01T12:00:00Z"))
 
 
 def test_what_is_seen_less_exactly_than_it_must_stand_is_uncertain_and_not_right(tmp_path: Path) -> None:
@@ -259,3 +261,15 @@ def test_markers_that_were_swapped_are_told_until_something_is_moved(tmp_path: P
         assert len(texts) == 2 and texts[0].startswith("lx_100 stands where p2 stood at the last look")
     change(tmp_path, lambda w: nudge(SETUP, w, "p2", dx=8))
     assert said(observe(tmp_path), "marker-swapped") == []
+
+
+def test_a_calibration_of_axes_or_some_cameras_leaves_the_other_cameras_as_the_lab_has_them(tmp_path: Path) -> None:
+    before = look(tmp_path)
+    true = sim(SETUP, tmp_path).world.true_cameras()
+    for cameras in ({}, {"left": true["left"]}):
+        write_calibration(
+            tmp_path, "sim", Calibration(cameras, axes={"p1.angle": AxisZero(direction=1, zero=1.0, sigma=0.1)})
+        )
+        seen = look(tmp_path)
+        assert seen.observation.components.keys() == before.observation.components.keys()
+        assert seen.observation.components["p1"].pose == before.observation.components["p1"].pose

@@ -13,10 +13,11 @@ from pico_cli.commands.commission import Person
 from pico_cli.session import Session
 
 from pico.backends.hardware.walking import speed_of
+from pico.backends.ways import backwards
 from pico.bench.commissioning.placing import free_slots, one_of_each, pick_and_place
 from pico.bench.commissioning.reaching import outside
 from pico.bench.commissioning.standing import NO_ARM, AtBench, shortened
-from pico.bench.commissioning.swinging import backwards, first_move, stop_distance
+from pico.bench.commissioning.swinging import first_move, stop_distance
 from pico.diagnostics import PicoError
 from pico.manifest.load import load_folder
 from pico.model.observation import Observation, ObservedComponent

@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -14,9 +15,11 @@ import pytest
 from commanding import Pico, Typed, edit
 
 from pico.manifest.load import load_folder
+from pico.model.calibration.results import AxisZero, DarkLevel, Provenance
 from pico.model.commissioning import STEPS
 from pico.vision.arm import NOMINAL, FoundArm
-from pico.vision.calibration import Calibration, write_calibration
+from pico.vision.calibration import Calibration
+from pico.vision.calibration_files import results_of, write_calibration
 from pico.vision.nominal import nominal
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
@@ -30,7 +33,11 @@ def calibrated(root: Path) -> None:
     setup = load_folder(root).require()[0]
     cameras = {name: nominal(name, camera) for name, camera in setup.lab.cameras.items()}
     arms = {name: FoundArm(offsets=NOMINAL, position=0.1, turn=0.05) for name in setup.lab.robots}
-    write_calibration(root, Calibration(cameras=cameras, arms=arms, made_at="2026-11-20T12:00:00Z"))
+    axes = {f"{name}.angle": AxisZero(direction=1, zero=0.0, sigma=0.1) for name in ("hwp", "p1", "p2")}
+    dark = {"cam.image": DarkLevel(level=64.0, sigma=1e-3, noise=2.0, unit="count")}
+    found = Calibration(cameras=cameras, arms=arms, axes=axes, dark=dark, made_at="2026-11-20T12:00:00Z")
+    how = Provenance(bench="emulated", evidence="emulated", at=found.made_at)
+    write_calibration(root, "emulated", replace(found, provenance=dict.fromkeys(results_of(found), how)))
 
 
 def report(root: Path) -> Any:
@@ -69,7 +76,9 @@ def test_a_bench_is_walked_through_left_off_taken_up_and_then_a_laser_is_armed(
     assert "`pico --backend hardware --emulate commission`" in armed.err
 
     failed = pico(*EMULATED, "commission", "-y")
-    assert failed.code == 1 and "the lab has no calibration" in failed.err, failed.out + failed.err
+    assert failed.code == 1 and "the step `intrinsics` of the calibration is missing for left, right" in failed.err, (
+        failed.out + failed.err
+    )
     steps = report(shel)["steps"]
     assert {n: s["outcome"] for n, s in steps.items()} == {
         "devices": "passed", "identities": "passed", "calibration": "failed",

@@ -24,8 +24,9 @@ def test_calibration_is_written_with_its_residuals(shel: Path, pico: Pico) -> No
     answer = pico("calibrate")
     assert answer.code == 0
     assert re.search(r"arm1 +mount off by \d\.\d+ mm, .*; its tool is known to 0\.\d+ mm", answer.out)
-    written = json.loads((shel / "calibration.json").read_text())
-    assert written["schema"] == "pico.calibration/v1"
+    written = json.loads((shel / "calibration/sim.json").read_text())
+    assert written["schema"] == "pico.calibration/v2"
+    assert {how["evidence"] for how in written["provenance"].values()} == {"simulated"}
     assert max(written["residuals"].values()) < 0.1
     assert written["arms"]["arm1"]["position"] < 0.1
     assert len(written["arms"]["arm1"]["offsets"]["zeros"]) == 7

@@ -18,7 +18,7 @@ from pico.optics.light import Light, light_of
 from pico.optics.nominal.specimens import uncertain
 from pico.policy.expired import expired, old
 from pico.resources import labs_dir
-from pico.vision.calibration import FILE, made_at
+from pico.vision.calibration_files import EARLIER, made_at
 
 LAB = (labs_dir() / "shel" / "lab.yaml").read_text()
 LENS = "  lx_100:\n    type: plano_convex_100\n    marker: 4\n    home: storage/a1\n"
@@ -95,9 +95,9 @@ def test_it_is_old_once_it_was_valid_for_less(valid: int, age: float) -> None:
 def test_what_is_too_old_is_one_line_with_what_to_do(tmp_path: Path) -> None:
     setup, _ = read(lens("0.2 mm", ", valid_for: 30 d"), "  calibrated_for: 10 d\n")
     assert setup is not None
-    assert made_at(tmp_path) == ""
-    (tmp_path / FILE).write_text('{"made_at": "2026-01-25T10:00:00Z"}')
-    made = made_at(tmp_path)
+    assert made_at(tmp_path, "sim") == ""
+    (tmp_path / EARLIER).write_text('{"made_at": "2026-01-25T10:00:00Z"}')
+    made = made_at(tmp_path, "sim")
     assert not [*expired(setup, made, "2026-01-30T00:00:00Z")]
     (one,) = expired(setup, made, "2026-02-06T00:00:00Z")
     assert one.summary == "measured too long ago: the calibration of the cameras (2026-01-25, valid for 10 d)"

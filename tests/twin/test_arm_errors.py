@@ -26,7 +26,8 @@ from pico.motion.xarm7 import LIMITS
 from pico.twin.arms import READS, TwinArm, arms_of
 from pico.twin.physics import Twin
 from pico.vision.arm import NOMINAL, UNKNOWN, ArmOffsets, FoundArm
-from pico.vision.calibration import Calibration, write_calibration
+from pico.vision.calibration import Calibration
+from pico.vision.calibration_files import write_calibration
 from pico.vision.nominal import camera_models
 from pico.vision.rigid import apart
 
@@ -194,5 +195,5 @@ def test_a_part_in_a_hand_is_known_no_better_than_the_arm(tmp_path: Path) -> Non
 
     assert sigma() > UNKNOWN.position, "it was never compared with what cameras over the table see"
     arms = {"arm1": FoundArm(offsets=NOMINAL, position=0.04, turn=0.02)}
-    write_calibration(tmp_path, Calibration(camera_models(setup), arms=arms))
+    write_calibration(tmp_path, "sim", Calibration(camera_models(setup), arms=arms))
     assert 0.04 < sigma() < 0.3

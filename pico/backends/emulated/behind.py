@@ -11,18 +11,21 @@ from pico.backends.emulated.world import EmulatedWorld
 from pico.backends.sim.readings import Table, measurer_of
 from pico.diagnostics import PicoError
 from pico.drivers.zaber_gantry import AXES, SCALE
+from pico.model.calibration.results import AxisZero
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.declaration import Declaration
 from pico.model.instruments.kind import value_at
 from pico.model.instruments.mapping import mapped
 from pico.model.quantities import Value, convert
+from pico.model.simulated import DeviceError
 from pico.model.wiring import DeviceEntry
 from pico.motion.types import Joints
 
 if TYPE_CHECKING:
     from pico.backends.sim.sight import Posed
     from pico.backends.sim.world import World
+    from pico.cameras.board import Sheet
 
 
 HIGHEST = 1000.0
@@ -117,9 +120,17 @@ class OfPart:
         self._kind = world.setup.type_of(component)
         setup, self._names = world.setup, about.kind == "choice"
         self._is: dict[str, tuple[str, Conversion | None]] = {
-            wired.property: (name, conversion_of(setup, about, entry, component, name, wired))
+            wired.property: (name, self._really(name, conversion_of(setup, about, entry, component, name, wired)))
             for name, wired in mapped(setup, about, entry, component).items()
         }
+
+    def _really(self, name: str, said: Conversion) -> Conversion:
+        """How a tunable really follows from the device's number: wrong by the lab's errors."""
+        wrong = self._wrong(name)
+        return AxisZero(direction=-1 if wrong.reversed else 1, zero=wrong.zero, sigma=0.0).corrects(said)
+
+    def _wrong(self, name: str) -> DeviceError:
+        return (self._world.setup.lab.sim.errors.devices or {}).get(f"{self._component}.{name}", DeviceError())
 
     def now(self) -> float:
         return self._world.now()
@@ -166,8 +177,11 @@ class OfPart:
         if not _number(reading.value):
             return None
         wired = next((one for key, one in self._is.values() if key == name), None)
-        unit = self._world.setup.measurables_of(self._component)[name].unit
-        return wired.to_device(reading.value) if wired else float(convert(f"{reading.value!r} {unit}", "W"))
+        unit, there = (
+            self._world.setup.measurables_of(self._component)[name].unit,
+            reading.value + self._wrong(name).dark,
+        )
+        return wired.to_device(there) if wired else float(convert(f"{there!r} {unit}", "W"))
 
 
 class OfCamera:
@@ -214,15 +228,24 @@ class SharedEyes:
     def __init__(self, world: EmulatedWorld) -> None:
         self._world, self._lock = world, threading.Lock()
         self._posed: Posed | None = None
-        self._taken: dict[str, tuple[World, Any]] = {}
+        self._taken: dict[str, tuple[tuple[World, object], Any]] = {}
+        self._light: dict[str, tuple[World, Any]] = {}
 
     def picture(self, camera: str) -> Any:
         """Return what a camera sees now, gray levels (rows, columns)."""
         with self._lock:
-            now = replace(self._world.world(), clock=0.0)
-            if camera not in self._taken or self._taken[camera][0] != now:
-                self._taken[camera] = now, self._scene().eyes(now).frame(camera).gray
+            now, shown = replace(self._world.world(), clock=0.0), self._world.sheet()
+            if camera not in self._taken or self._taken[camera][0] != (now, shown):
+                self._taken[camera] = (now, shown), self._frame(camera, now, shown)
             return self._taken[camera][1]
+
+    def _frame(self, camera: str, now: World, shown: Sheet | None) -> Any:
+        eyes = self._scene().eyes(now)
+        if shown is None:
+            return eyes.frame(camera).gray
+        if camera not in self._light or self._light[camera][0] != now:  # while a board is moved the rest stands still
+            self._light[camera] = now, eyes.light(camera)
+        return eyes.frame(camera, light=self._light[camera][1], sheets=(shown,)).gray
 
     def open(self) -> None:
         """Make the scene, so that the first picture does not take longer than any other."""
@@ -232,12 +255,13 @@ class SharedEyes:
     def _scene(self) -> Posed:
         from pico.backends.sim.sight import Posed
         from pico.twin.learned import read_learned, with_noise
-        from pico.vision.calibration import known_arms
+        from pico.vision.calibration_files import accepted_arms
 
         if self._posed is None:
-            setup, root = self._world.setup, self._world.place.root
-            noisy = with_noise(setup, read_learned(root))
-            self._posed = Posed(noisy, self._world.world(), known_arms(root), lit=False)
+            setup, place = self._world.setup, self._world.place
+            noisy = with_noise(setup, read_learned(place.root))
+            known = accepted_arms(place.root, place.name)
+            self._posed = Posed(noisy, self._world.world(), known, lit=False)
         return self._posed
 
 

@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Collection
 from contextlib import suppress
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from pico.backends.emulated.contact import ABNORMAL_CURRENT, LOAD_ERROR, Contacts
 from pico.backends.hardware.settings import Settings
@@ -29,7 +30,10 @@ from pico.motion.types import Joints
 from pico.places.bench import BenchPlace
 from pico.twin.arms import arms_of
 from pico.twin.learned import read_learned
-from pico.vision.calibration import known_arms
+from pico.vision.calibration_files import accepted_arms
+
+if TYPE_CHECKING:
+    from pico.cameras.board import Sheet
 
 FOLDER = "emulated"
 GRIPPER_MASS = PALM_MASS + 2 * FINGER_MASS
@@ -60,9 +64,14 @@ class EmulatedWorld:
         self._lock, self._kept, self._stored = threading.RLock(), 0.0, self._world
         self._devices = Settings(place, DEVICES)
         self._pulled: set[str] = set()
+        self.shown: Sheet | None = None
+        """The print that somebody holds up before the cameras."""
+        self.in_hand: tuple[str, Sheet] | None = None
+        """The print that a robot holds, where it is in the tool's frame."""
         self._contacts: Contacts | None = None
         self._people = people
-        self._arms, self._learned = arms_of(setup, self._world.seed, known_arms(place.root)), read_learned(place.root)
+        known = accepted_arms(place.root, place.name)
+        self._arms, self._learned = arms_of(setup, self._world.seed, known), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
                       for robot, now in self._world.robots.items() if now.holding}  # fmt: skip
 
@@ -151,6 +160,15 @@ class EmulatedWorld:
         """Return the part in the hand of a robot."""
         with self._lock:
             return self._world.robots[robot].holding
+
+    def sheet(self) -> Sheet | None:
+        """Return the print that cameras see now, where it is."""
+        with self._lock:
+            if self.in_hand is None:
+                return self.shown
+            robot, print_ = self.in_hand
+            tool = self._arms[robot].tool_in_space(self._world.robots[robot].joints, None)
+            return replace(print_, pose=tool @ print_.pose)
 
     def width(self, robot: str) -> float:
         """Return how far apart the fingers of a robot are [mm]."""

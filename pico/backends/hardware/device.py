@@ -46,7 +46,7 @@ from pico.planning.checks.interlocks import LAMP
 from pico.planning.routines import plugged_in
 from pico.twin.arms import TwinArm
 from pico.vision.arm import NOMINAL
-from pico.vision.calibration import calibration_digest, known_arms, read_calibration
+from pico.vision.calibration_files import calibration_digest, not_counting, other_devices, read_calibration
 from pico.vision.frame import TRIES, Frame
 
 if TYPE_CHECKING:
@@ -56,6 +56,7 @@ if TYPE_CHECKING:
     from pico.backends.world import Held, World
     from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
+    from pico.vision.calibration import Calibration
     from pico.vision.frame import Region
 
 LOST = 6
@@ -173,6 +174,11 @@ class HardwareDevice:
                 if was[address] is False:
                     await lamps[address].set(False)
 
+    async def picture(self, camera: str) -> Frame:
+        """Return a picture of a camera over the table as it is taken now, lamps on; raises PicoError."""
+        bench = await self.links.instruments()
+        return await self._lit(bench, self._frame(bench, camera))
+
     async def _looked(self, bench: Instruments) -> Look:
         from pico.backends.sight import unlooked
 
@@ -195,7 +201,7 @@ class HardwareDevice:
         """What frames show; those that are the same to the last pixel show the same."""
         from pico.backends.sight import BLIND, look
 
-        last, same = {**recall(self.place), **self._placed}, calibration_digest(self.place.root)
+        last, same = {**recall(self.place), **self._placed}, calibration_digest(self.place.root, self.bench)
         about = replace(known, time=0.0, observed_at=""), same
         if (
             self._before is not None
@@ -207,7 +213,7 @@ class HardwareDevice:
             return replace(
                 found, observation=replace(found.observation, time=known.time, observed_at=known.observed_at)
             )
-        found = look(self.setup, frames, read_calibration(self.place.root), known, last)
+        found = look(self.setup, frames, self.calibration(), known, last)
         if not any(problem.code in BLIND for problem in found.observation.problems):
             remember(self.place, noted(last, found.observation))
             self._placed.clear()
@@ -234,7 +240,7 @@ class HardwareDevice:
 
     def _told(self, bench: Instruments, most: float | None, untried: Collection[str]) -> list[Diagnostic]:
         """What must be known of the instruments before anything moves."""
-        found = []
+        found = list(not_counting(self.place.root, self.bench))
         if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
             text = f"no device of this bench has {', '.join(without)}: nobody compares or sets that"
             found.append(Diagnostic("note", "no-device", text))
@@ -254,10 +260,20 @@ class HardwareDevice:
             self.setup, self.arms(), found, self._kinds, taken, self.bench, self.links.now(), self._clock()
         )  # fmt: skip
 
+    def calibration(self) -> Calibration | None:
+        """Return the calibration of the bench, None without one. Raises PicoError for results of evidence that the
+        bench does not accept, and for those of a device with another serial number than the one that answers."""
+        found, connected = read_calibration(self.place.root, self.bench), self.links.connected
+        if found is not None and connected is not None:
+            serials = {name: one.serial for name, one in connected.who.items()}
+            if wrong := other_devices(found, serials, self.bench):
+                raise PicoError(wrong)
+        return found
+
     def arms(self) -> dict[str, TwinArm]:
-        """Return the arms as calibration knows them."""
-        known = known_arms(self.place.root)
-        robots = self.setup.lab.robots.items()
+        """Return the arms as calibration knows them; raises PicoError as `calibration`."""
+        found, robots = self.calibration(), self.setup.lab.robots.items()
+        known = {name: arm.offsets for name, arm in found.arms.items()} if found else {}
         return {name: TwinArm(robot, known=known.get(name, NOMINAL)) for name, robot in robots}
 
     async def peek(self, component: str, measurable: str) -> Measurement:
@@ -287,7 +303,11 @@ class HardwareDevice:
         bench = await self.links.instruments()
         readers = Readers(self.setup, self.place.root, bench, self.look, self._clock(), self._poses)
         seen = await self._felt(bench, recall_hands(self.place))
-        return await readers.measured(component, measurable, seen, busy)
+        made, by = (
+            await readers.measured(component, measurable, seen, busy),
+            calibration_digest(self.place.root, self.bench),
+        )
+        return replace(made, settings={**made.settings, "calibration": by}) if by else made
 
     # moving
 

@@ -14,6 +14,7 @@ from pico.drivers.driven import Exposed
 from pico.drivers.driver import Driver
 from pico.drivers.protocols import Arm, Camera, Gripper, Identity, Instrument, SafetyInput
 from pico.drivers.stand_in import Lacking, StandIn
+from pico.model.calibration.results import AxisZero, DarkLevel
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.declaration import Declaration
@@ -26,6 +27,7 @@ from pico.model.wiring import DeviceEntry, SafetyEntry, Wired
 
 if TYPE_CHECKING:
     from pico.drivers.registry import Buses
+    from pico.vision.calibration import Calibration
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +58,10 @@ class Instruments:
     """Why the arm of a robot, or its gripper, can't be had: nobody knows where it stands then, or what it holds."""
     maturity: dict[str, str] = field(default_factory=dict)
     who: dict[str, Identity] = field(default_factory=dict)
+    axes: Mapping[str, AxisZero] = field(default_factory=dict)
+    """Direction and zero of axes as they were calibrated, by the address of the tunable."""
+    dark: Mapping[str, DarkLevel] = field(default_factory=dict)
+    """What detectors read without light as it was calibrated, by the address of the measurable."""
 
     async def connect(self) -> None:
         """Connect to every one of them that there is; raises PicoError for all that fail at once."""
@@ -110,10 +116,13 @@ def _put(
 ) -> None:  # fmt: skip
     """Put what sets or reads a tunable or measurable where the lab has it."""
     kind, address = kind_of(about.kind), f"{of}.{key}"
+    conversion = conversion_of(setup, about, entry, of, key, wired)
+    if address in found.axes:
+        conversion = found.axes[address].corrects(conversion)
     point = Point(
-        instrument=one, address=address, property=wired.property,
-        conversion=conversion_of(setup, about, entry, of, key, wired), tunable=setup.type_of(of).tunables.get(key),
-        memory=settings, writable=about.writable(entry, wired.property),
+        instrument=one, address=address, property=wired.property, conversion=conversion,
+        tunable=setup.type_of(of).tunables.get(key), memory=settings,
+        writable=about.writable(entry, wired.property),
     )  # fmt: skip
     if (driven := kind.drives(point)) is not None:
         found.tunables[address] = driven
@@ -123,14 +132,19 @@ def _put(
 
 def wired(
     setup: Setup, entries: Mapping[str, DeviceEntry], buses: Buses, settings: Settings,
-    without: Mapping[str, Sequence[Diagnostic]] = MappingProxyType({}),
+    without: Mapping[str, Sequence[Diagnostic]] = MappingProxyType({}), known: Calibration | None = None,
 ) -> Instruments:  # fmt: skip
-    """Return the instruments of a lab's devices, none of them connected. `without`: why some can't be had. These, and
-    what has a driver that is not installed, or is broken, answer every call with the reason (`lacking`). Raises
-    PicoError for an entry that does not go with its driver, and for an extra that is missing."""
+    """Return the instruments of a lab's devices, none of them connected.
+
+    `without`: why some can't be had; `known`: how the bench is calibrated. What can't be had, and what has a driver
+    that is not installed, or is broken, answers every call with the reason (`lacking`). Raises PicoError for an entry
+    that does not go with its driver, and for an extra that is missing.
+    """
     from pico.drivers.registry import driver
 
     found, wrong = Instruments(), list[Diagnostic]()
+    if known is not None:
+        found.axes, found.dark = known.axes, known.dark
     for name, entry in entries.items():
         about: Driver | None = None
         try:

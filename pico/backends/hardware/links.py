@@ -6,6 +6,7 @@ from __future__ import annotations
 import asyncio
 import time
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -13,7 +14,7 @@ from pico.backends.hardware.instruments import Instruments, wired
 from pico.backends.hardware.lights import Lights
 from pico.backends.hardware.settings import Settings
 from pico.backends.instruments import emulated
-from pico.diagnostics import Diagnostic
+from pico.diagnostics import Diagnostic, PicoError
 from pico.drivers.registry import Buses, known_driver
 from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from pico.backends.hardware.guard.note import Ended
     from pico.backends.hardware.guard.verdict import Trip
     from pico.emulators.registry import EmulatedBench
+    from pico.vision.calibration import Calibration
 
 
 class Emulated(Protocol):
@@ -84,7 +86,7 @@ class Links:
     def about(self) -> Instruments:
         """Return the instruments of the lab's devices, none of them connected: what there is, without asking any."""
         if self._about is None:
-            self._about = wired(self.setup, self.entries, Buses(), Settings(self.place))
+            self._about = wired(self.setup, self.entries, Buses(), Settings(self.place), known=self._known())
         return self._about
 
     def arm_devices(self) -> dict[str, str]:
@@ -113,8 +115,16 @@ class Links:
         """Return the instruments over the links of this bench, connected or not."""
         if self._made is None:
             reached = self._reached()
-            self._made = wired(self.setup, reached, self._buses, Settings(self.place), self._failed())
+            self._made = wired(self.setup, reached, self._buses, Settings(self.place), self._failed(), self._known())
         return self._made
+
+    def _known(self) -> Calibration | None:
+        """Return the calibration of the bench, None if the bench refuses it: whoever moves or looks says so."""
+        from pico.vision.calibration_files import read_calibration
+
+        with suppress(PicoError):
+            return read_calibration(self.place.root, self.place.name)
+        return None
 
     def lights(self) -> Lights:
         """Return what ends light here; it needs no other device to answer. Raises PicoError for devices that can't be

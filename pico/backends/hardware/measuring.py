@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from pico.backends.attempt import Failed
 from pico.backends.hardware.instruments import Instruments, Metered
 from pico.backends.hardware.pictures import grayed
-from pico.backends.hardware.powers import Values, color_at, power_reading, read_as
+from pico.backends.hardware.powers import Values, color_at, power_reading, read_as, without_dark
 from pico.backends.measured import Reading, measurement
 from pico.diagnostics import PicoError, error
 from pico.kernels.frame import saturated
@@ -87,7 +87,7 @@ class Readers:
         sensor = Sensor(
             size=(counts.shape[1], counts.shape[0]), pitch=kind.number("pixel_size", "um") or 1.0,
             bits=round(kind.number("bit_depth", "bit") or 12), full_well=kind.number("full_well", "") or 1e4,
-            read_noise=kind.number("read_noise", "") or 0.0, black=kind.number("black_level", "count") or 0.0,
+            read_noise=kind.number("read_noise", "") or 0.0, black=self._black(component),
         )  # fmt: skip
         gain = own.get("gain", 0.0)
         settings: dict[str, Value] = {
@@ -156,10 +156,17 @@ class Readers:
             raise Failed(error("unread", f"{address} can't be read back: nobody knows it", address=address))
         return Reading(live.value)
 
+    def _black(self, component: str) -> float:
+        """The level of a camera without light [counts]: as it was calibrated, else as its type says."""
+        if dark := self._bench.dark.get(f"{component}.image"):
+            return dark.level
+        return self._setup.type_of(component).number("black_level", "count") or 0.0
+
     async def _metered(self, component: str, name: str, values: Values) -> Reading:
-        metered = self._bench.meters[f"{component}.{name}"]
+        metered, dark = self._bench.meters[f"{component}.{name}"], self._bench.dark.get(f"{component}.{name}")
         if metered.measured.colored:
-            return await self._power(metered, component, values)
+            found = await self._power(metered, component, values)
+            return found if dark is None else without_dark(found, dark)
         return read_as(await metered.measured.read(), metered.conversion)
 
     async def _power(self, metered: Metered, component: str, values: Values) -> Reading:

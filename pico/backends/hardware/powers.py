@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from pico.backends.measured import Reading
 from pico.drivers.judging import same_wavelength
+from pico.model.calibration.results import DarkLevel
 from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.readout import Readout, unknown
@@ -74,6 +76,14 @@ def power_reading(
     found, doubt = corrected(readout, color, responds, sensor)
     reading = read_as(found, conversion)
     return reading if reading.unknown else replace(reading, saturated="", conditions={"wavelength": doubt})
+
+
+def without_dark(reading: Reading, dark: DarkLevel) -> Reading:
+    """Return a reading of a meter less what it reads without light, with the uncertainty of both."""
+    if not isinstance(reading.value, int | float) or isinstance(reading.value, bool):
+        return reading
+    sigma = math.hypot(reading.sigma, dark.sigma) if isinstance(reading.sigma, int | float) else reading.sigma
+    return replace(reading, value=reading.value - dark.level, sigma=sigma)
 
 
 def read_as(readout: Readout, conversion: Conversion) -> Reading:

@@ -147,9 +147,9 @@ class SimDevice:
         from pico.backends.last_seen import noted, recall, remember
         from pico.backends.sight import BLIND
         from pico.backends.sim.sight import see
-        from pico.vision.calibration import calibration_digest
+        from pico.vision.calibration_files import calibration_digest
 
-        world, calibration = self._world(), calibration_digest(self.place.root)
+        world, calibration = self._world(), calibration_digest(self.place.root, self.place.name)
         if self._looked is None or self._looked[0] != (world, calibration):
             last = {**recall(self.place), **self._placed}
             found = see(self.setup, self.place, world, "sim", self._clock(), last)

@@ -195,10 +195,10 @@ def seeing(setup: Setup, world: World, root: Path) -> Callable[[Twin], HandSight
     def eyes(twin: Twin) -> HandSight:
         from pico.backends.sim.cameras import eyes_of
         from pico.cameras.eye_in_hand import EyeInHand
-        from pico.vision.calibration import read_calibration
+        from pico.vision.calibration_files import SIMULATED, read_calibration
         from pico.vision.nominal import camera_models
 
-        found = read_calibration(root)
+        found = read_calibration(root, SIMULATED)
         trusted = camera_models(setup) | dict(found.cameras if found else {})
         seen = eyes_of(setup, world, twin.model, twin.data)
         return EyeInHand(setup, twin, seen, trusted, found.accuracy if found else None, found.arms if found else None)

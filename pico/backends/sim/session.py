@@ -52,7 +52,7 @@ from pico.planning.routines import Routine, carried
 from pico.teleop.frames import STEPS
 from pico.twin.learned import read_learned, with_noise
 from pico.twin.snapshot import Snapshot
-from pico.vision.calibration import known_arms
+from pico.vision.calibration_files import SIMULATED, known_arms
 
 if TYPE_CHECKING:
     from pico.backends.sight import Look
@@ -539,7 +539,7 @@ class WorldSession:
 
 def new_mover(setup: Setup, root: Path, world: World, fidelity: str) -> WorldMover:
     """Return what moves the bodies of `world` of the lab in `root` at a fidelity: `kinematic` or `physics`."""
-    known, learned = known_arms(root), read_learned(root)
+    known, learned = known_arms(root, SIMULATED), read_learned(root)
     setup = with_noise(setup, learned)
     if fidelity == "kinematic":
         return KinematicWorld(setup, world, known, learned)

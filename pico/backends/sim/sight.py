@@ -20,7 +20,7 @@ from pico.twin.arms import arms_of, motors
 from pico.twin.learned import read_learned, with_noise
 from pico.twin.placement import Placement
 from pico.vision.arm import ArmOffsets
-from pico.vision.calibration import known_arms, read_calibration
+from pico.vision.calibration_files import SIMULATED, known_arms, read_calibration
 from pico.vision.frame import exposed
 
 if TYPE_CHECKING:
@@ -38,7 +38,8 @@ def see(
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
     if not names:
         raise no_cameras(setup)
-    eyes = Posed(with_noise(setup, read_learned(place.root)), world, known_arms(place.root)).eyes(world)
+    known = known_arms(place.root, place.name)
+    eyes = Posed(with_noise(setup, read_learned(place.root)), world, known).eyes(world)
     pictures = [exposed(partial(eyes.frame, name)) for name in names]
     taken = recall_hands(place)
     if setup.lab.sim.observe == "sight":
@@ -49,12 +50,12 @@ def see(
         name: LastSeen(pose=pose, uncertainty=repeated(setup, name), time=world.clock, placed=True)
         for name, pose in let_go(setup, told, taken).items()
     }
-    return look(setup, pictures, read_calibration(place.root), told, {**last, **placed})
+    return look(setup, pictures, read_calibration(place.root, place.name), told, {**last, **placed})
 
 
 def picture(setup: Setup, root: Path, world: World, name: str) -> Frame:
     """Return what one camera sees of `world`; black where it was asked often enough."""
-    eyes = Posed(with_noise(setup, read_learned(root)), world, known_arms(root), lit=False).eyes(world)
+    eyes = Posed(with_noise(setup, read_learned(root)), world, known_arms(root, SIMULATED), lit=False).eyes(world)
     return exposed(partial(eyes.frame, name))
 
 

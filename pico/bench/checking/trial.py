@@ -23,12 +23,11 @@ from pico.motion.deferred import DeferredMotion
 from pico.places.bench import BenchPlace
 from pico.planning import PlanGoal, Planner
 from pico.planning.checks.target import Source
+from pico.vision.calibration_files import read_from
 
 if TYPE_CHECKING:
     from pico.bench.running.loop import LoopThread
     from pico.edge.contract import Edge
-
-CALIBRATION = "calibration.json"
 
 
 def simulated(setup: Setup) -> Setup:
@@ -103,8 +102,11 @@ def _bench(setup: Setup, fidelity: str = "kinematic", lab: Path | None = None) -
     thread = LoopThread()
     with tempfile.TemporaryDirectory(prefix="pico-check-") as name:
         folder = Path(name)
-        if lab is not None and (lab / CALIBRATION).is_file() and not (lab / CALIBRATION).is_symlink():
-            shutil.copy(lab / CALIBRATION, folder)
+        found = read_from(lab, SIMULATOR) if lab is not None else None
+        if lab is not None and found is not None and found.is_file() and not found.is_symlink():
+            copy = folder / found.relative_to(lab)
+            copy.parent.mkdir(exist_ok=True)
+            shutil.copy(found, copy)
         edge = embedded(simulated(setup), BenchPlace(folder, SIMULATOR), fidelity)
         try:
             yield edge, thread

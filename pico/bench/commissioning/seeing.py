@@ -3,44 +3,53 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from pico.base import clock
+from pico.bench.calibrating.subjects import standing_of
 from pico.bench.commissioning.standing import HOURS, AtBench, Found, shortened
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import Diagnostic, PicoError, error
+from pico.model.calibration.steps import STEPS, StepStanding
 from pico.model.commissioning import CODE
 from pico.model.observation import Observation
-from pico.policy.expired import old
-from pico.vision.calibration import read_calibration
+from pico.vision.calibration_files import command, not_counting, read_calibration
 
 FIRST_HAND = ("", "stereo", "known height")
 """How a pose is known that was seen just now."""
 
 
 def calibration(at: AtBench) -> Found:
-    """There is a calibration, of every camera over the table and every arm, not too old, and what cameras see of the
-    datums now agrees with it. Raises PicoError."""
-    setup, root = at.edge.setup, at.edge.place.root
-    known = read_calibration(root)
+    """Every step of the calibration was done on this bench, with the devices that answer, not too long ago, and what
+    cameras see of the datums now agrees with it. Raises PicoError, which names each step that is missing and the
+    command for it."""
+    root, name = at.edge.place.root, at.edge.place.name
+    at.bench.wait(at.device.links.instruments())
+    rows = standing_of(at.device, at.edge.now())
+    wrong = [*_missing(rows, name)]
+    wrong += [replace(one, severity="error") for one in not_counting(root, name)]
+    if not wrong:
+        wrong = [one for one in at.bench.cameras.scan().observation.problems if one.severity == "error"]
+    known = None if wrong else read_calibration(root, name)
     if known is None:
-        text = "the lab has no calibration of its cameras and arms"
-        raise PicoError(error(CODE, text, hint="`pico calibrate` makes calibration.json; commit it with the lab"))
-    arms = {name for name, robot in setup.lab.robots.items() if robot.model == "xarm7"}
-    without = sorted((setup.lab.cameras.keys() - known.cameras.keys()) | (arms - known.arms.keys()))
-    wrong = [error(CODE, f"the calibration knows nothing of {name}", address=name) for name in without]
-    lasts = setup.lab.policy.calibrated_for
-    if lasts and known.made_at and old(known.made_at, lasts, at.edge.now()):
-        wrong.append(error("expired", f"the calibration of {known.made_at[:10]} was valid for {lasts}"))
-    seen = at.bench.cameras.scan().observation
-    wrong += [one for one in seen.problems if one.severity == "error"]
-    if wrong:
         raise PicoError(wrong)
-    age = _hours(known.made_at, at.edge.now()) / 24 if known.made_at else None
+    age = max((row.age for row in rows if row.age is not None), default=None)
+    steps = {f"{row.step}/{row.subject}": row.how.at for row in rows if row.how}
     data = {"made_at": known.made_at, "age_days": age and round(age, 2), "digest": known.digest,
-            "position_mm": known.accuracy.position}  # fmt: skip
-    aged = f"{age:.1f} days old" if age is not None else "of no known date"
+            "position_mm": known.accuracy.position, "steps": steps}  # fmt: skip
+    aged = f"its oldest result is {age:.1f} days old" if age is not None else "of no known date"
     return Found(told=f"{aged}, a position on the table is known to {known.accuracy.position:.3f} mm", data=data)
+
+
+def _missing(rows: Sequence[StepStanding], bench: str) -> Iterator[Diagnostic]:
+    """Yield one error for each step that is still to be done, with the command for it."""
+    for step in STEPS:
+        left = [row for row in rows if row.step == step and row.why]
+        for why in dict.fromkeys(row.why for row in left):
+            names = ", ".join(row.subject for row in left if row.why == why)
+            hint = f"`{command(bench)} {step}`: {STEPS[step]}"
+            yield error(CODE, f"the step `{step}` of the calibration is missing for {names}: {why}", hint=hint)
 
 
 def drift(at: AtBench) -> Found:

@@ -20,7 +20,7 @@ from pico.model.commissioning import CODE, NEAR
 from pico.model.observation import Observation
 from pico.motion.deferred import DeferredMotion
 from pico.motion.kinematics import tool_pose
-from pico.motion.types import Blocked, Joints, MovePath
+from pico.motion.types import Blocked, MovePath
 
 TURNS = (60.0, -60.0, 30.0, -30.0, 15.0, -15.0)
 """By how much an arm may turn about its base, the first that is free [deg]."""
@@ -132,19 +132,9 @@ def _way(at: AtBench, robot: str) -> MovePath:
         turned = replace(seen.robots[robot], joints=there)
         found = ways.parking(setup, motion, replace(seen, robots={**seen.robots, robot: turned}), robot)
         if not isinstance(found, Blocked):
-            return backwards(found, seen.robots[robot].joints)
+            return ways.backwards(found, seen.robots[robot].joints)
         said = found.text
     raise PicoError(error(CODE, f"{robot} can't turn about its base: {said}", hint="clear the table", address=robot))
-
-
-def backwards(path: MovePath, start: Joints) -> MovePath:
-    """Return a path the other way round, from `start`, which is where it ends but for a hair."""
-    segments = [
-        replace(one, times=tuple(one.seconds - t for t in reversed(one.times)), joints=tuple(reversed(one.joints)))
-        for one in reversed(path.segments)
-    ]
-    segments[0] = replace(segments[0], joints=(start, *segments[0].joints[1:]))
-    return replace(path, segments=tuple(segments))
 
 
 async def _walked(at: AtBench, robot: str, path: MovePath, speed: float) -> float:

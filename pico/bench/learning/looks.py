@@ -41,14 +41,14 @@ def scatter_of_looks(setup: Setup, root: Path, stood: Mapping[str, Pose], noise:
     from pico.backends.sim.sight import Posed
     from pico.backends.sim.world import new_world
     from pico.twin.learned import with_noise
-    from pico.vision.calibration import known_arms, read_calibration
+    from pico.vision.calibration_files import SIMULATED, known_arms, read_calibration
     from pico.vision.frame import exposed
 
-    world, calibration = new_world(setup), read_calibration(root)
+    world, calibration = new_world(setup), read_calibration(root, SIMULATED)
     for name, pose in stood.items():
         world = world.with_body(name, pose=pose)
     names = [name for name, camera in sorted(setup.lab.cameras.items()) if camera.robot is None]
-    eyes = Posed(with_noise(setup, Learned(noise=noise)), world, known_arms(root)).eyes(world)
+    eyes = Posed(with_noise(setup, Learned(noise=noise)), world, known_arms(root, SIMULATED)).eyes(world)
     seen: dict[str, list[Pose]] = defaultdict(list)
     for _ in range(LOOKS):
         sighting, _ = seen_by(setup, [exposed(partial(eyes.frame, name)) for name in names], calibration, set())

@@ -17,7 +17,9 @@ from pico.model.setup import Setup
 from pico.model.state import LabState, home_state
 from pico.model.trace.run import STRENGTH, Run
 
-_BESIDE = re.compile(r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|notes/[^/]+\.md")
+_BESIDE = re.compile(
+    r"(?:README|LICEN[SC]E|COPYING|CITATION)(?:\.[a-z]+)?|calibration\.json|calibration/[a-z_]+\.json|notes/[^/]+\.md"
+)
 _LICENSE = re.compile(r"lab/(?:LICEN[SC]E|COPYING)(?:\.[a-z]+)?")
 
 
@@ -90,12 +92,12 @@ def _lab_files(folder: LabFolder, commit: str) -> list[File]:
 
 
 def _blobs(tree: Any, folder: str, at: str = "") -> Iterator[tuple[str, bytes]]:
-    """Yield the files of a folder, and of `notes` in it, by path relative to it; links are left out."""
+    """Yield the files of a folder, of `calibration` and `notes` in it, by path relative to it; links are left out."""
     from pygit2.enums import FileMode
 
     for entry in tree[folder] if folder else tree:
         path = f"{at}{entry.name}"
-        if entry.filemode == FileMode.TREE and path == "notes":
-            yield from _blobs(entry, "", "notes/")
+        if entry.filemode == FileMode.TREE and path in ("calibration", "notes"):
+            yield from _blobs(entry, "", f"{path}/")
         elif entry.filemode in (FileMode.BLOB, FileMode.BLOB_EXECUTABLE):
             yield path, entry.data

@@ -14,13 +14,14 @@ import pytest
 
 from pico.backends.hardware.instruments import wired
 from pico.backends.hardware.measuring import Readers
-from pico.backends.hardware.powers import color_at
+from pico.backends.hardware.powers import color_at, without_dark
 from pico.backends.hardware.settings import Settings
 from pico.backends.measured import Reading, measurement
 from pico.drivers.registry import Buses
 from pico.emulators.behind import Alone
 from pico.emulators.registry import EmulatedBench
 from pico.manifest.load import load_folder
+from pico.model.calibration.results import DarkLevel
 from pico.model.measurement import incomparable
 from pico.model.observation import Observation, ObservedComponent
 from pico.model.pose import Pose
@@ -203,3 +204,11 @@ def test_the_factor_of_a_known_detector_is_that_of_its_curve_and_a_blind_one_is_
     assert doubt.endswith("multiply by about 0.734, for a head of silicon")
     found, doubt = corrected(readout, Color(1550.0), responds, "silicon")
     assert found.unknown == "wavelength" and "silicon sees nothing at 1550 nm" in found.why and not doubt
+
+
+def test_what_a_meter_reads_without_light_is_taken_off_with_its_uncertainty() -> None:
+    dark = DarkLevel(level=0.25, sigma=0.03, noise=0.1, unit="mW")
+    found = without_dark(Reading(1.5, sigma=0.04), dark)
+    assert found.value == pytest.approx(1.25) and found.sigma == pytest.approx(0.05)
+    blind = Reading(None, unknown="over range", reason="over-range")
+    assert without_dark(blind, dark) == blind

@@ -1,0 +1,152 @@
+"""What the calibration of a bench with devices finds of what was injected into the emulated one.
+
+    python benchmarks/calibration_procedure.py [--seeds 20] [--shots 20] [--pixels 2448] [--arms]
+
+Each seed is a bench of labs/shel with examples/devices.yaml: cameras displaced by 3 mm and turned by 1 deg, focal
+lengths wrong by 0.5 % and k1 by 0.01, the zero of one mount wrong by 12.5 deg, another mount reversed. `pico calibrate`
+does the steps intrinsics, extrinsics, axes and dark over the drivers and emulators, with a simulated person who holds
+the board and reads the scales. With `--arms` also the step arms (minutes a seed): mount off by 2 mm and 0.3 deg, joints
+by 0.1 deg, tool by 1 mm; then how far the tool is from where it should be, over the workspace.
+
+Printed: by quantity the real scatter, the stated sigma, and the farthest in sigmas. Ends with 1 if a value is more than
+4 sigmas off or a mount's direction is wrong, and with 10 seeds or more if fewer than 90 % of all values are within 2
+sigmas, or if sigmas are more than 1.5 times the real scatter (the median).
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
+
+from calibration import missed  # noqa: E402
+
+from pico.backends.emulated.bench import PACE  # noqa: E402
+from pico.bench.bench import Bench  # noqa: E402
+from pico.bench.calibrating.walk import CalibrationWalk  # noqa: E402
+from pico.cameras.errors import true_cameras  # noqa: E402
+from pico.model.calibration.steps import CalibrationStep  # noqa: E402
+from pico.twin.arms import arms_of  # noqa: E402
+from pico.vision.bundle import lens  # noqa: E402
+from pico.vision.calibration_files import read_calibration  # noqa: E402
+from pico.vision.rigid import rotation_vector  # noqa: E402
+
+ERRORS = """  errors:
+    camera_position: 3 mm
+    camera_rotation: 1 deg
+    focal_length: 0.005
+    distortion: 0.01
+    devices: {p1.angle: {zero: 12.5}, p2.angle: {reversed: true}}
+"""
+AXES = {"hwp.angle": (1, 0.0), "p1.angle": (1, 12.5), "p2.angle": (-1, 0.0)}
+ARM = "    arm: {mount_position: 2 mm, mount_rotation: 0.3 deg, joint_zero: 0.1 deg, tool_position: 1 mm}\n"
+STEPS: tuple[CalibrationStep, ...] = ("intrinsics", "extrinsics", "axes", "dark")
+LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3")
+POSE = ("x_mm", "y_mm", "z_mm", "turn_x_deg", "turn_y_deg", "turn_z_deg")
+
+
+class Quiet:
+    """A person who says yes."""
+
+    def say(self, text: str) -> None:
+        """Say nothing."""
+
+    def confirm(self, question: str, *, by_person: bool = False) -> bool:
+        """Say yes."""
+        return True
+
+
+def lab(folder: Path, seed: int, pixels: int) -> Path:
+    """Write the lab of one seed, and return its folder."""
+    root = Path(shutil.copytree(ROOT / "labs" / "shel", folder / f"lab{seed}"))
+    shutil.copy(ROOT / "examples" / "devices.yaml", root)
+    text = (root / "lab.yaml").read_text()
+    assert "  seed: 1\n" in text and "pixels: [2448, 2048]" in text
+    text = text.replace("  seed: 1\n", f"  seed: {seed}\n{ERRORS}{ARM}", 1)
+    text = text.replace("pixels: [2448, 2048]", f"pixels: [{pixels}, {round(pixels * 2048 / 2448)}]")
+    (root / "lab.yaml").write_text(text)
+    return root
+
+
+def calibrated(root: Path, seed: int, shots: int, arms: bool) -> tuple[dict[str, tuple[float, float]], bool]:
+    """Calibrate the bench of a lab, and return how far each number is off with its sigma, and whether directions are
+    right."""
+    bench = Bench.open(root, backend="emulated")
+    try:
+        for _ in CalibrationWalk(bench, Quiet(), None, shots=shots).walk((*STEPS, "arms") if arms else STEPS):
+            pass
+        setup = bench.setup
+    finally:
+        bench.close()
+    known = read_calibration(root, "emulated")
+    assert known is not None
+    found: dict[str, tuple[float, float]] = {}
+    for name, true in true_cameras(setup, setup.lab.sim.errors, seed).items():
+        if true.robot is not None:
+            continue
+        camera = known.cameras[name]
+        turn = np.degrees(rotation_vector(camera.pose[:3, :3] @ true.pose[:3, :3].T))
+        of_lens, of_pose = (known.provenance[f"{step}/{name}"].uncertainty for step in ("intrinsics", "extrinsics"))
+        off = np.concatenate([lens(camera) - lens(true), camera.pose[:3, 3] - true.pose[:3, 3], turn])
+        sigmas = [*(of_lens[key] for key in LENS), *(of_pose[key] for key in POSE)]
+        found |= {f"{name} {key}": (float(a), b) for key, a, b in zip((*LENS, *POSE), off, sigmas, strict=True)}
+    right = True
+    for address, (direction, zero) in AXES.items():
+        axis = known.axes[address]
+        right &= axis.direction == direction
+        found[address] = (axis.zero - zero + 90) % 180 - 90, axis.sigma
+    if arms:
+        off = np.array(missed(arms_of(setup, seed)["arm1"], known.arms["arm1"].offsets, np.random.default_rng(seed)))
+        said = known.arms["arm1"]
+        mm, deg = np.percentile(off, 95, axis=0)
+        stated = f"said {said.position:.3f} mm, {said.turn:.3f} deg (one sigma each way)"
+        print(f"  seed {seed}: tool off by {mm:.3f} mm, {deg:.3f} deg at p95; {stated}")
+    level = known.dark["cam.image"]
+    black = setup.type_of("cam").number("black_level", "count") or 0.0
+    found["cam.image"] = level.level - black, level.sigma
+    return found, right
+
+
+def main() -> None:
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("--seeds", type=int, default=20)
+    words.add_argument("--shots", type=int, default=20)
+    words.add_argument("--pixels", type=int, default=2448)
+    words.add_argument("--arms", action="store_true")
+    asked = words.parse_args()
+    os.environ[PACE] = "4" if asked.arms else "20"
+    start, rows, right = time.process_time(), dict[str, list[tuple[float, float]]](), True
+    with tempfile.TemporaryDirectory() as folder:
+        for seed in range(1, asked.seeds + 1):
+            found, directions = calibrated(lab(Path(folder), seed, asked.pixels), seed, asked.shots, asked.arms)
+            right &= directions
+            for name, one in found.items():
+                rows.setdefault(name.replace("left ", "camera ").replace("right ", "camera "), []).append(one)
+    print(f"{asked.seeds} seeds, {asked.shots} pictures of the board; real scatter, stated sigma (median), farthest")
+    pulls, ratios = [], []
+    for name, values in rows.items():
+        off, sigmas = np.array(values).T
+        scatter, stated, pull = float(np.sqrt(np.mean(off**2))), float(np.median(sigmas)), np.abs(off / sigmas)
+        pulls += list(pull)
+        ratios.append(stated / scatter if scatter else np.inf)
+        print(
+            f"  {name:<18} {scatter:10.3g} {stated:10.3g}   {pull.max():.1f} sigmas, sigma / scatter {ratios[-1]:.2f}"
+        )
+    within, middle = float(np.mean(np.array(pulls) < 2)), float(np.median(ratios))
+    print(f"within 2 sigmas: {within:.1%}; farthest {max(pulls):.1f}; sigma / scatter {middle:.2f} (median)")
+    print(f"directions of mounts {'right' if right else 'WRONG'}; {time.process_time() - start:.0f} s of one core")
+    good = right and max(pulls) <= 4 and (asked.seeds < 10 or (within >= 0.9 and middle <= 1.5))
+    sys.exit(not good)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,1 @@
+"""What a calibration finds, and how each result came about."""

@@ -1,0 +1,167 @@
+"""The lens of one camera by pictures of the board, and where the camera then stands, with uncertainties. mm, pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from pico.diagnostics import PicoError, error
+from pico.vision.bundle import LEAST, LENS, LENS_STEPS, MISFIT, POSE_STEPS, intrinsics, lens, with_lens
+from pico.vision.camera import CameraModel
+from pico.vision.charuco import BoardView
+from pico.vision.least_squares import solve
+from pico.vision.rigid import motion, moved, rotation
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
+
+EVERY = 4
+"""Every so many pictures one is held out of the fit that is tried on it."""
+DATUM_NOISE = 0.05
+"""One standard deviation of a corner of a datum [pixels], at least."""
+
+LOOSER = 1.5
+"""By how much the numbers of a lens are let go further than each is known alone: their errors go together."""
+
+
+@dataclass(frozen=True, eq=False)
+class FoundLens:
+    """A camera with its lens, its pose as it was before."""
+
+    camera: CameraModel
+    sigmas: Array
+    """One standard deviation of the nine numbers of the lens."""
+    residual: float
+    """What is left of the corners, root mean square [pixels]."""
+    held_out: float
+    """The same of pictures that a fit to the others did not use."""
+
+
+@dataclass(frozen=True, eq=False)
+class FoundPlace:
+    """A camera where it stands."""
+
+    camera: CameraModel
+    sigmas: Array
+    """One standard deviation of each number of its lens, of its place [mm] and its turn [rad]."""
+    residual: float
+    """What is left of the datums' corners, root mean square [pixels]."""
+
+
+def lens_of(views: Sequence[BoardView], start: CameraModel) -> FoundLens:
+    """Return the lens of a camera by pictures of the board; raises PicoError if these are too few, or no lens explains
+    them."""
+
+    if len(views) < LEAST:
+        text = f"camera `{start.name}` sees the board in {len(views)} pictures; {LEAST} is the least"
+        hint = "show the board at more places and tilts, all of it in the picture"
+        raise PicoError(error("calibration-board", text, hint=hint, address=start.name))
+    camera, poses = intrinsics(views, start)
+    left = _left(views, camera, poses)
+    if not left < MISFIT:
+        text = f"no lens explains what camera `{start.name}` saw: corners are {left:.3g} pixels off"
+        hint = "show the board again, flat, printed to scale and all of it in the pictures"
+        raise PicoError(error("calibration-fit", text, hint=hint, address=start.name))
+    kept, out = _split(views)
+    apart = held_out(out, intrinsics(kept, camera)[0]) if len(kept) >= LEAST and out else float("nan")
+    return FoundLens(camera, _sigmas(views, camera, poses, left), left, apart)
+
+
+def held_out(views: Sequence[BoardView], camera: CameraModel) -> float:
+    """Return how far corners are from where a camera has them that was fitted without these pictures, root mean square
+    [pixels]; where the board was is fitted to each."""
+    return _left(views, camera, [_board_pose(view, camera) for view in views])
+
+
+def _split(views: Sequence[BoardView]) -> tuple[list[BoardView], list[BoardView]]:
+    kept = [view for i, view in enumerate(views) if i % EVERY != EVERY - 1]
+    return kept, [view for i, view in enumerate(views) if i % EVERY == EVERY - 1]
+
+
+def _board_pose(view: BoardView, camera: CameraModel) -> Array:
+    """The pose (4, 4) of the board in the camera's frame."""
+    import cv2
+    import numpy as np
+
+    _, turn, shift = cv2.solvePnP(view.corners, view.pixels, camera.matrix, camera.distortion)
+    return motion(rotation(np.ravel(turn)), np.ravel(shift))
+
+
+def _off(view: BoardView, camera: CameraModel, pose: Array) -> Array:
+    import numpy as np
+
+    alone = replace(camera, pose=np.eye(4))
+    return alone.project(view.corners @ pose[:3, :3].T + pose[:3, 3]) - view.pixels
+
+
+def _left(views: Sequence[BoardView], camera: CameraModel, poses: Sequence[Array]) -> float:
+    import numpy as np
+
+    off = np.concatenate([_off(view, camera, pose) for view, pose in zip(views, poses, strict=True)])
+    return float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+
+
+def _sigmas(views: Sequence[BoardView], camera: CameraModel, poses: Sequence[Array], left: float) -> Array:
+    """One standard deviation of each number of the lens (9,), the poses of the board unknown: the Schur complement of
+    the normal equations."""
+    import numpy as np
+
+    numbers, normal = lens(camera), np.zeros((LENS, LENS))
+    for view, pose in zip(views, poses, strict=True):
+        at = _off(view, camera, pose)
+        of_lens = np.stack([(_off(view, with_lens(camera, numbers + step), pose) - at).ravel() / size
+                            for step, size in zip(np.diag(LENS_STEPS), LENS_STEPS, strict=True)], axis=1)  # fmt: skip
+        of_pose = np.stack([(_off(view, camera, moved(pose, step)) - at).ravel() / size
+                            for step, size in zip(np.diag(POSE_STEPS), POSE_STEPS, strict=True)], axis=1)  # fmt: skip
+        cross = of_lens.T @ of_pose
+        normal += of_lens.T @ of_lens - cross @ np.linalg.pinv(of_pose.T @ of_pose) @ cross.T
+    count = 2 * sum(len(view.corners) for view in views)
+    variance = left**2 / 2 * count / max(1, count - LENS - 6 * len(views))  # of one coordinate of a corner
+    return np.sqrt(np.maximum(np.diag(np.linalg.pinv(normal)), 0.0) * variance)
+
+
+def place_of(points: Array, pixels: Array, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
+    """Return where a camera stands that sees `points` (n, 3) [mm] of the table at `pixels` (n, 2). Its lens is known to
+    `lens_sigmas` (n,), and is fitted within these, so that the place is no more certain than the lens lets it be."""
+    import numpy as np
+
+    numbers, sure = lens(start), np.maximum(np.asarray(lens_sigmas, np.float64) * LOOSER, 1e-12)
+
+    many = len(numbers)
+
+    def at(change: Array) -> CameraModel:
+        return with_lens(replace(start, pose=moved(start.pose, change[many:])), numbers + change[:many] * sure)
+
+    def residuals(change: Array) -> Array:
+        off = np.nan_to_num(at(change).project(points) - pixels, nan=1e4).ravel() / DATUM_NOISE
+        return np.concatenate([off, change[:many]])
+
+    found = solve(residuals, np.zeros(many + 6), np.array((1e-2,) * many + POSE_STEPS))
+    off = at(found.parameters).project(points) - pixels
+    left = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
+    free = max(1, 2 * len(points) - 6)
+    worse = max(1.0, float(np.sqrt(np.sum((off / DATUM_NOISE) ** 2) / free)))
+    sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0)) * worse
+    return FoundPlace(at(found.parameters), np.concatenate([sigmas[:many] * sure, sigmas[many:]]), left)
+
+
+def board_in(views: Sequence[BoardView], cameras: Sequence[CameraModel]) -> tuple[Array, float]:
+    """Return the pose (4, 4) on the table of a board that calibrated `cameras` see at one instant, each in one of
+    `views`, and what is left of its corners, root mean square [pixels]."""
+    import numpy as np
+
+    first = max(range(len(views)), key=lambda i: len(views[i].corners))
+    start = cameras[first].pose @ _board_pose(views[first], replace(cameras[first], pose=np.eye(4)))
+
+    def off(change: Array) -> Array:
+        pose = moved(start, change)
+        seen = [camera.project(view.corners @ pose[:3, :3].T + pose[:3, 3]) - view.pixels
+                for view, camera in zip(views, cameras, strict=True)]  # fmt: skip
+        return np.nan_to_num(np.concatenate(seen), nan=1e3).ravel()
+
+    found = solve(off, np.zeros(6), np.array(POSE_STEPS))
+    return moved(start, found.parameters), found.rms * 2**0.5

@@ -1,0 +1,74 @@
+"""A lens by pictures of the board and the place of its camera by datums are found within what is said of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from painted import bumped, stereo
+from test_calibration import BENCH, NOISE, poses, seen, table
+
+from pico.diagnostics import PicoError
+from pico.vision.bundle import LENS, bundle, datums_in, lens
+from pico.vision.lens import board_in, lens_of, place_of
+from pico.vision.rigid import apart, rotation_vector
+
+
+def true_of(camera, rng):
+    wrong = bumped(camera, 3 * rng.choice((-1, 1), 3) / 3**0.5, rng.choice((-1, 1), 3) / 3**0.5)
+    matrix = camera.matrix * np.array([[1.005], [1.005], [1]])
+    return replace(wrong, matrix=matrix, distortion=np.array([-0.09, 0.04, 3e-4, -2e-4, 0.0]))
+
+
+def off_by(found, true) -> np.ndarray:
+    """How far lens (9), place [mm] and turn [rad] are off."""
+    turn = rotation_vector(found.pose[:3, :3] @ true.pose[:3, :3].T)
+    return np.concatenate([lens(found) - lens(true), found.pose[:3, 3] - true.pose[:3, 3], turn])
+
+
+def test_lens_and_place_are_found_within_their_error_bars() -> None:
+    pulls = []
+    for seed in range(12):
+        rng = np.random.default_rng(seed)
+        start = stereo()["left"]
+        true = true_of(start, rng)
+        found = lens_of([seen(true, pose, rng) for pose in poses(rng, 14)], start)
+        assert found.residual == pytest.approx(NOISE * 2**0.5, rel=0.25) and found.held_out < 1.5 * found.residual
+        placed = place_of(*datums_in(BENCH, table(true, rng)), found.camera, found.sigmas)
+        assert placed.residual < 0.1
+        pulls.append(np.concatenate([(lens(found.camera) - lens(true)) / found.sigmas,
+                                     off_by(placed.camera, true)[LENS:] / placed.sigmas[LENS:]]))  # fmt: skip
+    pull = np.abs(pulls)
+    assert pull.max() < 4.5 and np.mean(pull < 2) > 0.88
+    assert np.std(pulls, axis=0)[:LENS].mean() > 0.6, "the error bars of a lens are no larger than they must be"
+
+
+def test_cameras_that_see_board_and_datums_are_found_within_their_error_bars() -> None:
+    pulls = []
+    for seed in range(3):
+        rng, start = np.random.default_rng(seed), stereo()
+        true = {name: true_of(camera, rng) for name, camera in start.items()}
+        shots = [{n: seen(c, pose, rng) for n, c in true.items()} for pose in poses(rng, 10)]
+        found = bundle(BENCH, shots, {n: table(c, rng) for n, c in true.items()}, start)
+        pulls += [off_by(found.cameras[n], c) / found.sigmas[n] for n, c in true.items()]
+    assert np.abs(pulls).max() < 4.5 and np.mean(np.abs(pulls) < 2) > 0.85
+
+
+def test_too_few_pictures_and_pictures_that_no_lens_explains_are_named() -> None:
+    rng, camera = np.random.default_rng(3), stereo()["left"]
+    views = [seen(camera, pose, rng) for pose in poses(rng, 8)]
+    with pytest.raises(PicoError, match="`left` sees the board in 5 pictures; 6 is the least"):
+        lens_of(views[:5], camera)
+    bent = [replace(view, pixels=view.pixels + rng.normal(0, 5, view.pixels.shape)) for view in views]
+    with pytest.raises(PicoError, match="no lens explains what camera `left` saw"):
+        lens_of(bent, camera)
+
+
+def test_a_board_that_two_calibrated_cameras_see_is_found_on_the_table() -> None:
+    rng, cameras = np.random.default_rng(5), stereo()
+    for pose in poses(rng, 4):
+        views = [seen(camera, pose, rng) for camera in cameras.values()]
+        found, left = board_in(views, list(cameras.values()))
+        distance, angle = apart(found, pose)
+        assert distance < 0.1 and angle < 0.05 and left == pytest.approx(NOISE * 2**0.5, rel=0.3)
