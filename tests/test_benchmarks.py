@@ -38,6 +38,7 @@ SMALLEST = {
     "kills": "--kills 50 --applies 1 --git 9",
     "absorbed": "--seeds 1 --seat 1",
     "beam_audit": "--repeat 1",
+    "beam_pictures": "--pictures 20 --plant saturation-ignored",
     "alignment": "--seeds 1",
     "faulted_loops": "--loops 12 --kills 2 --goals tip null",
     "stages": "--seeds 1",
@@ -95,6 +96,7 @@ SMALLEST = {
     "xarm_link": "--seconds 1 --losses 1",
     "xarm_transcript": "",
     "undo": "--cycles 2 --held 1",
+    "wrong_benches": "--only meter",
 }
 ELSEWHERE = {"identical": "tests/planning/test_identical.py"}
 """Those that have a slow test of their own."""
