@@ -118,14 +118,15 @@ def _optimize(
     from ..runs.running import say
     from ..terminal.output import write
 
-    session.tell(bench.goals.cautions(chosen))
+    cautions = bench.goals.cautions(chosen)
+    session.tell(cautions)
     plan = bench.goals.plan(chosen)
     more = plan.errored or (len(plan.operations) > 1 and not session.json)
     code = show(session, bench, plan, auto_approve or dry_run, single=True) if more else 0
     if code:
         return int(code)
     if dry_run:
-        session.show(ahead_view, chosen, bench.setup)
+        session.show(ahead_view, chosen, bench.setup, cautions=cautions)
         return 0
     if code := declined(session, bench, plan, auto_approve):
         return int(code)
@@ -146,7 +147,7 @@ def _optimize(
     began: Mapping[str, float] = next(
         (op.arguments["from"] for op in plan.operations if op.primitive == "optimize"), {}
     )
-    session.show(view, found, chosen, bench.setup, report, advice=dark, began=began)
+    session.show(view, found, chosen, bench.setup, report, advice=dark, began=began, cautions=cautions)
     session.tell(report.diagnostics)
     if found.points:
         session.draw(plot, chosen.name, lambda path: bench.goals.plot(found, chosen.goal, path))

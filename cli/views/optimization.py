@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -13,13 +13,14 @@ from .style import columns, count, paint, seconds, wrap
 
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen, Optimized
+    from pico.diagnostics import Diagnostic
     from pico.model.setup import Setup
     from pico.model.trace.report import RunReport
 
 
 def text(
     found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, advice: str = "",
-    began: Mapping[str, float] = MappingProxyType({}),
+    began: Mapping[str, float] = MappingProxyType({}), **_: Any,
 ) -> str:  # fmt: skip
     """Return the outcome in a line, a table of before and after, and how to go back; `advice`: what to do about it;
     `began`: where its tunables stood before."""
@@ -58,9 +59,11 @@ def _table(found: Optimized, chosen: Chosen, setup: Setup, began: Mapping[str, f
     return [f"  {row}" for row in columns(rows)]
 
 
-def data(found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, **_: Any) -> dict[str, Any]:
+def data(
+    found: Optimized, chosen: Chosen, setup: Setup, report: RunReport, *, cautions: Sequence[Diagnostic] = (), **_: Any
+) -> dict[str, Any]:  # fmt: skip
     """Return schema `pico.optimization/v1`: `goal`, `algorithm`, `met`, `why`, `measurements`, `seconds`, `first`,
     `last`, `points` (an array in the content store, its `columns`), `run`; `stages`: the same of the goals that were
     sought first, `measurements` counted from the first on; `diagnostics`: what else came up."""
     return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,
-            "chosen": chosen.why, "run": report.run, "diagnostics": as_json(report.diagnostics)}  # fmt: skip
+            "chosen": chosen.why, "run": report.run, "diagnostics": as_json((*cautions, *report.diagnostics))}  # fmt: skip

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from pico.model.record import as_json
@@ -10,11 +11,12 @@ from .style import columns, seconds
 
 if TYPE_CHECKING:
     from pico.bench.goals import Chosen
+    from pico.diagnostics import Diagnostic
     from pico.model.setup import Setup
     from pico.planning.sought import Sought
 
 
-def text(chosen: Chosen, setup: Setup) -> str:
+def text(chosen: Chosen, setup: Setup, **_: Any) -> str:
     """Return algorithm, bounds, what is measured, budget and time; of goals that come first where it is dark, too."""
     parts = [f"{chosen.name} would be sought so:"]
     if chosen.first:
@@ -43,10 +45,11 @@ def _rows(one: Sought, setup: Setup) -> list[str]:
     return columns(rows)
 
 
-def data(chosen: Chosen, setup: Setup) -> dict[str, Any]:
+def data(chosen: Chosen, setup: Setup, *, cautions: Sequence[Diagnostic] = ()) -> dict[str, Any]:
     """Return schema `pico.goal/v1`: `name`, `goal`, `algorithm`, `why`, `seconds`; `first`: what is sought before it
-    where it is dark, each with `name`, `goal`, `algorithm`, `why`."""
+    where it is dark, each with `name`, `goal`, `algorithm`, `why`; `diagnostics`: what it can't tell, if anything."""
     told = {"schema": "pico.goal/v1", **_told(chosen.one), "seconds": chosen.seconds}
+    told |= {"diagnostics": as_json(cautions)} if cautions else {}
     return {**told, "first": [_told(one) for one in chosen.first]} if chosen.first else told
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pico.bench.opened import Opened
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.kernels.pipeline import source_of
 from pico.model.comparing.drift import drift_of
 from pico.model.diff import unread_values
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from pico.model.measurement import Measurement
     from pico.model.trace.expectation import GoalRead, Verified
     from pico.model.trace.report import PartRow, RunReport
+    from pico.runs.memory import Memory
 
 NOISE = 3.0
 """So many standard deviations a reading may be from zero and still be noise."""
@@ -157,6 +158,13 @@ class Measurements:
         own = {name: measured_when_met(memory, name, as_json(goals[name])) for name in goals.keys() - recorded.keys()}
         return {**recorded, **{name: last for name, last in own.items() if last is not None}}
 
+    def _memory(self) -> Memory | None:
+        """Return the memory of the bench, None if the journal is damaged: that hides nothing of what commits prove."""
+        try:
+            return self.opened.edge.memory
+        except PicoError:
+            return None
+
     def verify(
         self, revision: str | None = None, told: Sequence[GoalRead] = (), report: RunReport | None = None
     ) -> Verified:
@@ -194,7 +202,7 @@ class Measurements:
             goals=(*(report.read or () if report else ()), *told) if report or told else None,
             light=Lights(self.opened).compared(revision, report.measurements) if report else None,
             unread=unread_values(seen, wanted) or None,
-            unstated=tell(setup, self.opened.edge.memory, seen, wanted) or None,
+            unstated=tell(setup, self._memory(), seen, wanted) or None,
         )  # fmt: skip
 
     def expected(self, plan: Plan) -> Verified:

@@ -111,7 +111,7 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
         if len(values) < _TILES:
             break
         for _ in range(2):
-            values = values[np.abs(values - values.mean()) <= _OUTLYING * values.std()]
+            values = values[np.abs(values - values.mean()) <= _OUTLYING * max(float(values.std()), 1e-6)]
         own = float(values.var()) * (by * size) ** 2
         if own > behind.variance * (1 + _UNEVEN * np.sqrt(2 / len(values))):
             variance = max(variance, own)

@@ -444,3 +444,12 @@ def test_the_list_of_goals_and_the_line_of_a_teleoperation_fit_a_narrow_terminal
     jogged = {"angle": Jogged(unit="deg", longest=100.0, range=(0.0, 360.0))}
     line = teleop.line("p1", jogged, {"angle": 1.0}, "angle", {"angle": 0.2}, "", shown)
     assert "y 57.64 um" in line and "step 0.2 deg" in line and len(line) <= 80
+
+
+def test_what_a_goal_can_not_tell_is_in_the_json_too(placed: Path, pico: Pico) -> None:
+    for part in ("p1", "p2"):
+        succeed("move", part, f"storage/{'b1' if part == 'p1' else 'b2'}", "--yes")
+    words = ("optimize", "peak", "hwp", "cam", "--dry-run")
+    assert "no polarizer stands" in " ".join(pico(*words).err.split())
+    (one,) = pico(*words, "--json").data["diagnostics"]
+    assert "no polarizer stands" in one["summary"]
