@@ -191,7 +191,10 @@ def _holding(session: Session) -> Holding:
 
     far = session.place(find_lab(session.folder))
     if not isinstance(far, Far):
+        from pico.edge.guard.table_lock import notice
+
         text = f"the bench `{far.name}` is on this machine: it needs no lease"
+        session.tell(notice(far))
         hint = "`--bench LAB/BENCH` means one on the network; `pico remote list` shows where"
         raise PicoError(error("local", text, hint=hint))
     return Holding(far)

@@ -66,4 +66,5 @@ def data(
     `last`, `points` (an array in the content store, its `columns`), `run`; `stages`: the same of the goals that were
     sought first, `measurements` counted from the first on; `diagnostics`: what else came up."""
     return {"schema": "pico.optimization/v1", **as_json(found), "goal": chosen.name, "algorithm": chosen.algorithm,
-            "chosen": chosen.why, "run": report.run, "diagnostics": as_json((*cautions, *report.diagnostics))}  # fmt: skip
+            "chosen": chosen.why, "run": report.run,
+            "diagnostics": as_json((*cautions, *report.diagnostics))}  # fmt: skip

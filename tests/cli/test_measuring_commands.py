@@ -150,7 +150,7 @@ def test_what_a_measurable_needs_is_set_first_and_set_back_afterwards(needing: P
         ("op3", "set", "laser", "closed", ["op2"]),
     ]
     found = measured(pico("do", "cam", "measure", "exposure", "--json", "-y"))
-    assert found["assured"] == ["settled", "arm parked", "shutter"]
+    assert found["assured"] == ["settled", "arm parked", "in range", "shutter"]
     assert pico("get", "laser.shutter", "--json").data["values"]["shutter"]["value"] == "closed"
 
 
@@ -183,7 +183,7 @@ def test_an_arm_that_was_stopped_on_its_way_parks_with_the_beam_closed(needing: 
         ("measure", "cam", None),
     ]
     found = measured(pico("do", "cam", "measure", "exposure", "--json", "-y"))
-    assert found["assured"] == ["settled", "arm parked", "shutter"]
+    assert found["assured"] == ["settled", "arm parked", "in range", "shutter"]
 
 
 def expecting(lab: Path, *those: str) -> None:
