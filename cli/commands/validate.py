@@ -38,6 +38,7 @@ def validate(
     from pico.history.merge.checked import overlapping
     from pico.history.merge.doubts import doubts_in
     from pico.manifest.folders import check_files, check_folder
+    from pico.optics.audit.labels import check_labels
     from pico.optics.audit.state import check_light
     from pico.optics.nominal.spans import check_spans
     from pico.planning.checks.bolted import check_bolted
@@ -54,6 +55,7 @@ def validate(
             *check_set_points(read),
             *check_reach(read),
             *overlapping(read),
+            *check_labels(read),
             *check_light(read),
             *check_spans(read),
             *check_carried(read),
