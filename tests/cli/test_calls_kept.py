@@ -22,7 +22,7 @@ CALLS: dict[str, tuple[str, ...]] = {
     "bisect bad": (), "bisect skip": (), "bisect step": ("--expect", "p2.pose.yaw < 10"),
 }  # fmt: skip
 """Each command that may start a run, with words that are enough for it."""
-NO_RUN = {"bench update", "lease steal", "swap"}
+NO_RUN = {"bench update", "calibrate steps", "lease steal", "swap"}
 """Commands that ask, and never start a run."""
 
 

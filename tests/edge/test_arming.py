@@ -304,4 +304,6 @@ def test_an_optimization_during_which_an_arming_ends_is_left_where_light_was_and
         if found.met:  # it was quicker
             return
         assert any("laser was shut: the arming by Ada Lovelace ended" in d.summary for d in report.diagnostics)
-        assert bench.observe().known_values[goal[1]] == before[goal[1]] and found.last is None
+        assert bench.observe().known_values[goal[1]] == before[goal[1]]
+        dark = found.last or {"objective": 0.0, "objective_sigma": 1.0}  # no light is a number with a sigma
+        assert abs(dark["objective"]) <= 4 * dark["objective_sigma"]
