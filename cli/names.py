@@ -34,8 +34,8 @@ SELDOM = {
 
 MOVING = {
     "apply", "bisect", "bisect continue", "bisect good", "bisect bad", "bisect run", "bisect skip", "bisect start",
-    "bisect step", "calibrate", "calibrate steps", "checkout", "commission", "do", "laser", "laser arm", "move", "optimize", "recover",
-    "redo", "resume", "run", "runs replay", "set", "teleop", "undo",
+    "bisect step", "calibrate", "calibrate steps", "checkout", "commission", "do", "laser", "laser arm", "move",
+    "optimize", "recover", "redo", "resume", "run", "runs replay", "set", "teleop", "undo",
 }  # fmt: skip
 """Commands that move something or let light out: never offered for a word that is misspelt, for who takes the offer
 without reading moves the bench. What is meant is read in the list of commands."""

@@ -24,7 +24,7 @@ from pico.emulators import registry as emulators
 from pico.manifest.checks import devices
 from pico.model import primitive
 from pico.model.wiring import DeviceEntry
-from pico.optics import light
+from pico.optics import following
 from pico.optimize import registry as algorithms
 from pico.optimize.problem import Problem, Variable
 from pico.planning import routines
@@ -176,7 +176,7 @@ def forget() -> None:
     """Let what was read of installed packages be read anew."""
     registered._LOADED.clear()
     for one in (registered.modules, primitive.plugged_in, simulated.plugged_in, routines.plugged_in, drivers.known,
-                emulators.known, light.element, devices.declaration):  # fmt: skip
+                emulators.known, following.element, devices.declaration):  # fmt: skip
         one.cache_clear()
     for name in ("own_parts", "own_primitive"):
         sys.modules.pop(name, None)
