@@ -243,22 +243,29 @@ def test_an_open_run_whose_client_is_gone_is_interrupted(bench: Bench) -> None:
     assert on_edge(bench, lambda edge: edge.holder()) is None
 
 
+TRIES = ("r1", "r2", "r3", "r4", "r5")
+"""Runs of which one is ended before it is over, also on a busy machine."""
+
+
 @pytest.mark.parametrize("how", ["cancel", "halt", "stop"])
 def test_a_run_is_ended_safely_or_at_once(bench: Bench, how: str) -> None:
-    plan = bench.plan("e1")
+    for run in TRIES:
+        plan = bench.plan("e1")
 
-    async def act(edge: Edge) -> list[Event]:
-        events = []
-        await edge.start(Job(plan=plan, holder="test"), "r1")
-        async for event in edge.events("r1"):
-            events.append(event)
-            if event.kind == "operation_started" and event.data["primitive"] == "move":
-                await (edge.cancel("r1") if how == "cancel" else getattr(edge, how)())
-        return events
+        async def act(edge: Edge, plan: Plan = plan, run: str = run) -> list[Event]:
+            events = []
+            await edge.start(Job(plan=plan, holder="test"), run)
+            async for event in edge.events(run):
+                events.append(event)
+                if event.kind == "operation_started" and event.data["primitive"] == "move":
+                    await (edge.cancel(run) if how == "cancel" else getattr(edge, how)())
+            return events
 
-    events = on_edge(bench, act)
-    assert events[-1].data["outcome"] == "interrupted"
-    report = on_edge(bench, lambda edge: edge.report("r1"))
+        events = on_edge(bench, act)
+        if events[-1].data["outcome"] == "interrupted":
+            break
+        bench.apply(bench.recovery.undo_plan())  # it was quicker
+    report = on_edge(bench, lambda edge: edge.report(run))
     assert report.outcome == "interrupted"
     assert on_edge(bench, lambda edge: edge.holder()) is None
     if how != "stop":
@@ -269,7 +276,11 @@ def test_a_run_is_ended_safely_or_at_once(bench: Bench, how: str) -> None:
 
 def test_resume_undo_and_recover_go_by_what_it_remembers(bench: Bench) -> None:
     before = {name: part.pose for name, part in bench.observe().components.items()}
-    report = ended_when(bench, bench.plan("e1"), lambda e: e.kind == "operation_done" and "error_mm" in e.data)
+    for _ in TRIES:
+        report = ended_when(bench, bench.plan("e1"), lambda e: e.kind == "operation_done" and "error_mm" in e.data)
+        if report.outcome == "interrupted":
+            break
+        bench.apply(bench.recovery.undo_plan())  # it was quicker
     assert report.outcome == "interrupted"
     plan, id = bench.recovery.resume_plan()
     assert id == report.run
