@@ -9,10 +9,11 @@ from contextlib import suppress
 from dataclasses import replace
 
 from pico.backends.hardware.guard import note as notes
+from pico.backends.hardware.guard.aside import Aside
 from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
 from pico.backends.hardware.guard.note import Ended, Frozen, Note
 from pico.backends.hardware.guard.verdict import Trip
-from pico.backends.hardware.guard.watch import Guard, Told, Watched
+from pico.backends.hardware.guard.watch import WRITING, Guard, Told, Watched
 from pico.backends.hardware.instruments import Instruments
 from pico.base import clock
 from pico.diagnostics import PicoError
@@ -41,13 +42,14 @@ class Lights(Told):
         self.gates: Mapping[str, str] = {}
         """The shutter on the table that stands in the beam of a laser, as the bench was seen last."""
         self.listening: Callable[[Ended, Trip | None], None] | None = None
-        """Who writes the journal."""
+        """Who writes the journal; called in a thread of its own, for a journal that is locked keeps nothing waiting."""
         self.session: Callable[[Trip], None] | None = None
         """Who has the bench: it hears of a trip before anything is closed."""
         self.moving: Callable[[], tuple[Arm, ...]] = tuple
         self._lock = threading.Lock()
         self._guard: Guard | None = None
-        self._outcome: object = None
+        self._outcomes: dict[str, object] = {}  # by laser: what was told of it, since light was let out
+        self._journal = Aside("pico guard journal")
         self._dark = False  # whether all lasers were dark: what is let out then is let out anew
 
     def lights(self) -> tuple[Light, ...]:
@@ -102,6 +104,7 @@ class Lights(Told):
         guard, self._guard = self._guard, None
         if guard is not None:
             guard.close()
+            self._journal.finish(WRITING)
             if guard.is_dark:
                 self._kept(lambda note: replace(note, watch=None))
 
@@ -117,15 +120,16 @@ class Lights(Told):
         ended = now(ends)
         if ended.ends:
             await asyncio.to_thread(self._tell, ended, None)
+            await asyncio.to_thread(self._journal.finish, WRITING)
         return ended
 
     def _note(self, ended: Ended) -> None:
-        self._kept(lambda note: replace(note, ended=ended))
+        self._kept(lambda note: notes.with_ended(note, ended))
 
     def _tell(self, ended: Ended, trip: Trip | None) -> None:
         self._note(ended)
-        if self.listening is not None:
-            self.listening(ended, trip)
+        if (heard := self.listening) is not None:
+            self._journal.do(lambda: heard(ended, trip))
 
     async def tripped(self, why: str) -> None:
         """Keep that an operation ended light because of `why`, if a laser was lit."""
@@ -144,20 +148,21 @@ class Lights(Told):
             self.session(trip)
 
     def slow(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
-        if self._outcome is None:  # else it is told already that it could not be ended
+        if not {end.laser for end in ends} <= self._outcomes.keys():  # else it is told that it could not be ended
             self._note(Ended(at=clock.now(), why=trip.said, ends=ends))
 
     def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
-        ended = Ended(at=clock.now(), why=trip.said, ends=ends)
-        outcome = [(end.laser, end.is_dark) for end in ends], [cause.name for cause in trip.causes]
-        if outcome == self._outcome and not all(end.is_dark for end in ends):
+        causes = [cause.name for cause in trip.causes]
+        outcomes = {end.laser: (end.is_dark, causes) for end in ends}
+        known = {name: self._outcomes.get(name) for name in outcomes}
+        if outcomes == known and not all(end.is_dark for end in ends):
             return  # it was tried again, in vain: that is told already
-        self._outcome = outcome
-        self._tell(ended, trip)
+        self._outcomes |= outcomes
+        self._tell(Ended(at=clock.now(), why=trip.said, ends=ends), trip)
 
     def lit(self, lasers: tuple[str, ...]) -> None:
         if lasers and self._dark:
-            self._outcome = None
+            self._outcomes.clear()
 
         def changed(note: Note) -> Note:
             if not lasers:

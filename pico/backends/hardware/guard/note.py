@@ -56,13 +56,23 @@ class Frozen:
 
 @record
 class Note:
-    """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark."""
+    """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark.
+    `earlier`: what was ended before, since light was let out, of lasers that `ended` does not name."""
 
     schema: str = GUARD.schema
     watch: Watch | None = None
     ended: Ended | None = None
     killed: Watch | None = None
     frozen: Frozen | None = None
+    earlier: tuple[Ended, ...] = ()
+
+
+def with_ended(note: Note, ended: Ended) -> Note:
+    """Return a note with light that was ended now; what it says of other lasers stays."""
+    names = {one.laser for one in ended.ends}
+    before = (*((note.ended,) if note.ended is not None else ()), *note.earlier)
+    left = (replace(one, ends=tuple(end for end in one.ends if end.laser not in names)) for one in before)
+    return replace(note, ended=ended, earlier=tuple(one for one in left if one.ends))
 
 
 def read(place: BenchPlace) -> Note:
@@ -87,11 +97,12 @@ def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
 def notices(note: Note) -> tuple[Diagnostic, ...]:
     """Return what a person must know of the guard, the most urgent first; nothing while all is as it should be."""
     found = list[Diagnostic]()
-    if note.ended is not None:
-        found += [_left_lit(note.ended, one) for one in note.ended.ends if not one.is_dark]
-        dark = [one for one in note.ended.ends if one.is_dark]
-        if dark and note.ended.by == GUARDED:
-            found.append(_dark(note.ended, dark))
+    every = (*((note.ended,) if note.ended is not None else ()), *note.earlier)
+    found += [_left_lit(ended, one) for ended in every for one in ended.ends if not one.is_dark]
+    for ended in every:
+        dark = [one for one in ended.ends if one.is_dark]
+        if dark and ended.by == GUARDED:
+            found.append(_dark(ended, dark))
     if note.killed is not None:
         found.append(_killed(note.killed))
     if note.frozen is not None:
@@ -162,6 +173,7 @@ def _note(document: Mapping[str, Any]) -> Note:
     return Note(
         watch=each("watch", _watch), ended=each("ended", _ended), killed=each("killed", _watch),
         frozen=each("frozen", lambda d: Frozen(**{**d, "lasers": tuple(d["lasers"])})),
+        earlier=tuple(_ended(one) for one in document.get("earlier", ())),
     )  # fmt: skip
 
 
