@@ -178,9 +178,9 @@ class Lights(Told):
         self._kept(lambda note: replace(note, frozen=Frozen(until=clock.now(), seconds=seconds, lasers=lasers)))
 
     def _kept(self, change: Callable[[Note], Note]) -> None:
-        with self._lock, suppress(PicoError):  # a full disk keeps no light on
+        with self._lock, suppress(PicoError):  # a full disk keeps no light on; the note says then that it is full
             before = notes.read(self._place)
-            if (after := change(before)) != before:
+            if (after := change(before)) != before or notes.is_unwritten(self._place):
                 notes.write(self._place, after)
 
 

@@ -3,19 +3,21 @@ why, and where a guard was killed or frozen while a laser emitted. Whoever opens
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.base import clock
 from pico.base.state_files import GUARD
-from pico.diagnostics import Diagnostic, warning
+from pico.diagnostics import Diagnostic, PicoError, warning
 from pico.model.record import as_json, record
 from pico.places.bench import BenchPlace
 
+T = TypeVar("T")
 CODE = "guard"
 """The code of all that is said of the guard."""
 GUARDED, STOPPED = "the guard", "a stop"
@@ -57,7 +59,8 @@ class Frozen:
 @record
 class Note:
     """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark.
-    `earlier`: what was ended before, since light was let out, of lasers that `ended` does not name."""
+    `earlier`: what was ended before, since light was let out, of lasers that `ended` does not name. `wrong`: why its
+    file does not say this; never written."""
 
     schema: str = GUARD.schema
     watch: Watch | None = None
@@ -65,6 +68,7 @@ class Note:
     killed: Watch | None = None
     frozen: Frozen | None = None
     earlier: tuple[Ended, ...] = ()
+    wrong: Diagnostic | None = None
 
 
 def with_ended(note: Note, ended: Ended) -> Note:
@@ -75,18 +79,39 @@ def with_ended(note: Note, ended: Ended) -> Note:
     return replace(note, ended=ended, earlier=tuple(one for one in left if one.ends))
 
 
+_unwritten: dict[Path, Note] = {}
+"""What this process could not write, by file: it says it nevertheless, as long as it lives."""
+
+
 def read(place: BenchPlace) -> Note:
-    """Return what is kept of the guard of a bench; a watch whose process is gone counts as killed, but on an emulated
-    bench, where light ended with that process."""
-    note = GUARD.read(GUARD.path(place.folder), _note) or Note()
+    """Return what is kept of the guard of a bench, by this process alone if its file can't be written; a watch whose
+    process is gone counts as killed, but on an emulated bench, where light ended with that process. Of a file that is
+    damaged only that is returned."""
+    path = GUARD.path(place.folder)
+    if path in _unwritten:
+        return _unwritten[path]
+    if (note := GUARD.read(path, _note)) is None:
+        return Note(wrong=GUARD.wrong(path, _note))
     if note.watch is not None and not _alive(note.watch):
         note = replace(note, killed=None if place.name == "emulated" else note.watch, watch=None)
     return note
 
 
 def write(place: BenchPlace, note: Note) -> None:
-    """Keep it; raises PicoError if it can't be written."""
-    GUARD.write(GUARD.path(place.folder), as_json(note), what="what the guard did can't be kept", durable=False)
+    """Keep it; raises PicoError if it can't be written, and then this process alone knows it."""
+    path, whole = GUARD.path(place.folder), replace(note, wrong=None)
+    document = {key: value for key, value in as_json(whole).items() if key != "wrong"}
+    try:
+        GUARD.write(path, document, what="what the guard did can't be kept", durable=False)
+    except PicoError as exc:
+        _unwritten[path] = replace(note, wrong=exc.diagnostics[0])
+        raise
+    _unwritten.pop(path, None)
+
+
+def is_unwritten(place: BenchPlace) -> bool:
+    """Return whether this process knows what its file does not say."""
+    return GUARD.path(place.folder) in _unwritten
 
 
 def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
@@ -111,6 +136,9 @@ def notices(note: Note) -> tuple[Diagnostic, ...]:
         )
         text += f"{', '.join(note.frozen.lasers)} could emit unwatched"
         found.append(warning(CODE, text, hint="find out what froze this computer; `pico laser` shows the lasers"))
+    if note.wrong is not None:
+        text = f"guard: {note.wrong.summary}"
+        found.append(warning(CODE, text, detail=note.wrong.detail, hint=note.wrong.hint))
     return tuple(found)
 
 
@@ -167,24 +195,64 @@ def _boot() -> str:
 
 
 def _note(document: Mapping[str, Any]) -> Note:
-    def each(key: str, make: Any) -> Any:
+    def each(key: str, make: Callable[[Any], T]) -> T | None:
         return make(document[key]) if document.get(key) is not None else None
 
     return Note(
         watch=each("watch", _watch), ended=each("ended", _ended), killed=each("killed", _watch),
-        frozen=each("frozen", lambda d: Frozen(**{**d, "lasers": tuple(d["lasers"])})),
-        earlier=tuple(_ended(one) for one in document.get("earlier", ())),
+        frozen=each("frozen", _frozen), earlier=tuple(_ended(one) for one in document.get("earlier", ())),
     )  # fmt: skip
 
 
 def _watch(document: Mapping[str, Any]) -> Watch:
-    lists = {key: tuple(document.get(key, ())) for key in ("lasers", "closes_itself")}
-    return Watch(**{**document, **lists})
+    pid = document["pid"]
+    if type(pid) is not int or not 0 < pid < 2**31:
+        raise ValueError(f"pid is {str(pid)[:20]}, which is no process")
+    return Watch(
+        pid=pid, since=_time(document, "since"), lasers=_names(document, "lasers"),
+        closes_itself=_names(document, "closes_itself") if "closes_itself" in document else (),
+        boot=_text(document, "boot") if "boot" in document else "",
+    )  # fmt: skip
 
 
 def _ended(document: Mapping[str, Any]) -> Ended:
     ends = tuple(
-        LightEnd(laser=one["laser"], closings=tuple(Closing(**closing) for closing in one["closings"]))
+        LightEnd(laser=_text(one, "laser"), closings=tuple(_closing(closing) for closing in one["closings"]))
         for one in document["ends"]
     )
-    return Ended(at=document["at"], why=document["why"], by=document["by"], ends=ends)
+    return Ended(at=_time(document, "at"), why=_text(document, "why"), by=_text(document, "by"), ends=ends)
+
+
+def _closing(document: Mapping[str, Any]) -> Closing:
+    if type(document["dark"]) is not bool:
+        raise ValueError("dark is neither true nor false")
+    return Closing(address=_text(document, "address"), dark=document["dark"], wrong=str(document.get("wrong", "")))
+
+
+def _frozen(document: Mapping[str, Any]) -> Frozen:
+    seconds = document["seconds"]
+    if type(seconds) not in (int, float) or not math.isfinite(seconds):
+        raise ValueError(f"seconds is {str(seconds)[:20]}, which is no time")
+    return Frozen(until=_time(document, "until"), seconds=seconds, lasers=_names(document, "lasers"))
+
+
+def _text(document: Mapping[str, Any], key: str) -> str:
+    if not isinstance(text := document[key], str):
+        raise ValueError(f"{key} is {str(text)[:20]}, which is no text")
+    return text
+
+
+def _time(document: Mapping[str, Any], key: str) -> str:
+    text = _text(document, key)
+    try:
+        _local(text)
+    except (ValueError, OverflowError) as exc:
+        raise ValueError(f"{key} is {text[:20]!r}, which is no time") from exc
+    return text
+
+
+def _names(document: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    names = document[key]
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"{key} is {str(names)[:20]}, which are no names")
+    return tuple(names)
