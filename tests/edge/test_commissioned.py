@@ -126,7 +126,7 @@ class Guarded(Real):
 
     dead_men = frozenset[str]()
 
-    def listen(self, heard: Any) -> None:
+    def listen(self, heard: Any, disarm: Any) -> None:
         """Nothing ends light here."""
 
     def dark_by_itself(self) -> frozenset[str]:

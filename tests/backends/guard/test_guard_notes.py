@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import errno
 import json
 import os
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +14,8 @@ import pytest
 from bench_at import bench_at
 from boxes import guarded, until
 
-from pico.backends.hardware.guard.note import Note, notices, read, watching, write
+from cli.views.stopped import text
+from pico.backends.hardware.guard.note import EDGE_END, Note, notices, read, watching, write
 from pico.base.state_files import GUARD
 from pico.places.bench import BenchPlace
 
@@ -93,3 +96,41 @@ def test_a_process_that_lives_still_watches(tmp_path: Path) -> None:
     place.folder.mkdir(parents=True)
     write(place, Note(watch=watching(("bare",), ())))
     assert read(place).watch is not None and notices(read(place)) == ()
+
+
+@pytest.mark.parametrize(("name", "ends"), [("door_box", True), ("estop", True), ("lock", True), ("veil", False)])
+def test_a_trip_by_a_door_a_stop_or_an_interlock_ends_armings_and_one_by_a_curtain_does_not(
+    tmp_path: Path, name: str, ends: bool
+) -> None:
+    with guarded(tmp_path, presence_ends="3R") as rig:
+        asked: list[str] = []
+        rig.lights.disarming = lambda by: (asked.append(by), ("laser",))[1]  # type: ignore[func-returns-value]
+        rig.inputs.put(name, False)
+        rig.ends_within(0.5)
+        until(lambda: read(rig.place).ended is not None)
+        (said,) = notices(read(rig.place))
+        assert bool(asked) == ends and ("`pico laser arm laser`" in said.hint) == ends
+
+
+def test_a_stop_ends_armings_and_says_it_again_when_it_is_given_again(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        left = ["laser"]
+        rig.lights.disarming = lambda by: tuple(left.pop() for _ in list(left))
+        for _ in range(2):
+            ended = asyncio.run(rig.lights.end("a person stopped the bench", "a stop"))
+            assert ended.disarmed == ("laser",)
+        assert "The arming of laser has ended: `pico laser arm laser`" in text(None, None, bench="b", light=ended)
+
+
+def test_the_end_of_the_edge_is_told_as_that_and_ends_no_arming(tmp_path: Path) -> None:
+    with guarded(tmp_path, watchdog=0.5) as rig:
+        rig.lights.disarming = lambda by: ("laser",)
+        write(rig.place, replace(read(rig.place), ended=None))
+        rig.lights.emissions["second.emission"] = rig.lights.emissions["bare.emission"]  # each laser has a device
+        ended = asyncio.run(rig.lights.end("the edge of this bench was stopped", EDGE_END, disarms=False))
+        rig.lights.close()
+        note = read(rig.place)
+        assert note.watch is None and note.killed is None and ended.disarmed == ()
+        (said,) = notices(note)
+        assert said.severity == "note" and "the edge of this bench was stopped at" in said.summary
+        assert "light of bare, laser, second is off" in said.summary

@@ -12,15 +12,16 @@ from typing import Any, TypeVar
 
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.base import clock
-from pico.base.state_files import GUARD
+from pico.base.state_files import GUARD as FILE
 from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.model.observation import GUARD
 from pico.model.record import as_json, record
 from pico.places.bench import BenchPlace
 
 T = TypeVar("T")
-CODE = "guard"
+CODE = GUARD
 """The code of all that is said of the guard."""
-GUARDED, STOPPED = "the guard", "a stop"
+GUARDED, STOPPED, EDGE_END = "the guard", "a stop", "the end of the edge"
 """By whom light was ended."""
 
 
@@ -38,13 +39,14 @@ class Watch:
 
 @record
 class Ended:
-    """That light was ended: when (ISO 8601, UTC), why, and what became of each laser. `by`: the guard, or a person's
-    stop."""
+    """That light was ended: when (ISO 8601, UTC), why, and what became of each laser. `by`: the guard, a person's
+    stop, or the end of the process that served the bench. `disarmed`: the lasers whose arming has ended with it."""
 
     at: str
     why: str
     ends: tuple[LightEnd, ...]
     by: str = GUARDED
+    disarmed: tuple[str, ...] = ()
 
 
 @record
@@ -62,7 +64,7 @@ class Note:
     `earlier`: what was ended before, since light was let out, of lasers that `ended` does not name. `wrong`: why its
     file does not say this; never written."""
 
-    schema: str = GUARD.schema
+    schema: str = FILE.schema
     watch: Watch | None = None
     ended: Ended | None = None
     killed: Watch | None = None
@@ -75,6 +77,8 @@ def with_ended(note: Note, ended: Ended) -> Note:
     """Return a note with light that was ended now; what it says of other lasers stays."""
     names = {one.laser for one in ended.ends}
     before = (*((note.ended,) if note.ended is not None else ()), *note.earlier)
+    if note.ended is not None and note.ended.disarmed:
+        ended = replace(ended, disarmed=tuple(sorted({*ended.disarmed, *note.ended.disarmed})))
     left = (replace(one, ends=tuple(end for end in one.ends if end.laser not in names)) for one in before)
     return replace(note, ended=ended, earlier=tuple(one for one in left if one.ends))
 
@@ -87,11 +91,11 @@ def read(place: BenchPlace) -> Note:
     """Return what is kept of the guard of a bench, by this process alone if its file can't be written; a watch whose
     process is gone counts as killed, but on an emulated bench, where light ended with that process. Of a file that is
     damaged only that is returned."""
-    path = GUARD.path(place.folder)
+    path = FILE.path(place.folder)
     if path in _unwritten:
         return _unwritten[path]
-    if (note := GUARD.read(path, _note)) is None:
-        return Note(wrong=GUARD.wrong(path, _note))
+    if (note := FILE.read(path, _note)) is None:
+        return Note(wrong=FILE.wrong(path, _note))
     if note.watch is not None and not _alive(note.watch):
         note = replace(note, killed=None if place.name == "emulated" else note.watch, watch=None)
     return note
@@ -99,10 +103,10 @@ def read(place: BenchPlace) -> Note:
 
 def write(place: BenchPlace, note: Note) -> None:
     """Keep it; raises PicoError if it can't be written, and then this process alone knows it."""
-    path, whole = GUARD.path(place.folder), replace(note, wrong=None)
+    path, whole = FILE.path(place.folder), replace(note, wrong=None)
     document = {key: value for key, value in as_json(whole).items() if key != "wrong"}
     try:
-        GUARD.write(path, document, what="what the guard did can't be kept", durable=False)
+        FILE.write(path, document, what="what the guard did can't be kept", durable=False)
     except PicoError as exc:
         _unwritten[path] = replace(note, wrong=exc.diagnostics[0])
         raise
@@ -111,7 +115,7 @@ def write(place: BenchPlace, note: Note) -> None:
 
 def is_unwritten(place: BenchPlace) -> bool:
     """Return whether this process knows what its file does not say."""
-    return GUARD.path(place.folder) in _unwritten
+    return FILE.path(place.folder) in _unwritten
 
 
 def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
@@ -128,6 +132,10 @@ def notices(note: Note) -> tuple[Diagnostic, ...]:
         dark = [one for one in ended.ends if one.is_dark]
         if dark and ended.by == GUARDED:
             found.append(_dark(ended, dark))
+        elif dark and ended.by == EDGE_END:
+            names = ", ".join(one.laser for one in dark)
+            text = f"guard: the edge of this bench was stopped at {_local(ended.at)}, and light of {names} is off"
+            found.append(Diagnostic("note", CODE, text, hint="let light out anew when it is needed"))
     if note.killed is not None:
         found.append(_killed(note.killed))
     if note.frozen is not None:
@@ -148,7 +156,11 @@ def _dark(ended: Ended, ends: Sequence[LightEnd]) -> Diagnostic:
     wrong = "; ".join(one.wrong for one in ends if one.wrong)
     text = f"guard: light of {names} was ended at {_local(ended.at)} because {ended.why}"
     detail = f"dark now: {closed}" + (f"; not reached: {wrong}" if wrong else "")
-    return warning(CODE, text, detail=detail, hint="make the table safe, then let light out anew")
+    hint = "make the table safe, then let light out anew"
+    if ended.disarmed:
+        again = ", ".join(f"`pico laser arm {name}`" for name in ended.disarmed)
+        hint = f"make the table safe, then arm again what was armed: {again}"
+    return warning(CODE, text, detail=detail, hint=hint)
 
 
 def _left_lit(ended: Ended, one: LightEnd) -> Diagnostic:
@@ -220,7 +232,13 @@ def _ended(document: Mapping[str, Any]) -> Ended:
         LightEnd(laser=_text(one, "laser"), closings=tuple(_closing(closing) for closing in one["closings"]))
         for one in document["ends"]
     )
-    return Ended(at=_time(document, "at"), why=_text(document, "why"), by=_text(document, "by"), ends=ends)
+    return Ended(
+        at=_time(document, "at"),
+        why=_text(document, "why"),
+        by=_text(document, "by"),
+        ends=ends,
+        disarmed=_names(document, "disarmed") if "disarmed" in document else (),
+    )
 
 
 def _closing(document: Mapping[str, Any]) -> Closing:
