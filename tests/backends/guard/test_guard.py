@@ -344,15 +344,15 @@ def test_what_was_told_of_one_laser_stays_when_another_one_is_ended_later(tmp_pa
 
 
 def test_the_dead_man_of_a_head_is_kept_while_it_warms_up_behind_its_closed_shutter(tmp_path: Path) -> None:
-    with guarded(tmp_path, head_watchdog=0.5) as rig:
+    with guarded(tmp_path, head_watchdog=1.0) as rig:
         rig.lasers.put("laser_shutter", False)
         rig.lasers.put("laser_head", False)
         until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ("bare",))
         rig.lasers.put("bare_head", False)
         until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ())
         assert asyncio.run(rig.lights.emissions["laser.emission"].emit(True))
-        time.sleep(1.5)
+        time.sleep(2.2)
         assert rig.lasers.is_("laser_head"), "light may be let out of it"
         assert rig.lights.guard is not None
         rig.lights.guard.close()
-        until(lambda: not rig.lasers.is_("laser_head"), 1.0)
+        until(lambda: not rig.lasers.is_("laser_head"), 2.0)
