@@ -45,6 +45,8 @@ def _light(light: Ended | None) -> list[str]:
         else:
             why = end.wrong or "no device closes a shutter of it or switches it off"
             lines.append(paint("red", f"{end.laser} MAY STILL EMIT: {why}. {BY_HAND}"))
+    for name in light.disarmed if light is not None else ():
+        lines.append(f"The arming of {name} has ended: `pico laser arm {name}` lets its light out again.")
     return lines
 
 
@@ -60,5 +62,5 @@ def data(
     }  # fmt: skip
     if light is not None:
         ends = [{**as_json(end), "dark": end.is_dark} for end in light.ends]
-        found["light"] = {"at": light.at, "lasers": ends}
+        found["light"] = {"at": light.at, "lasers": ends, "disarmed": list(light.disarmed)}
     return found

@@ -87,8 +87,12 @@ class Shown(Protocol):
 class LightGuarded(Protocol):
     """A device whose light is guarded whether or not anybody has taken it, and can be ended at any time."""
 
-    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
-        """Have `heard` called, in any thread, after light was ended, by the guard (with its trip) or by a stop."""
+    def listen(
+        self, heard: Callable[[Ended, Trip | None], None], disarm: Callable[[str], tuple[str, ...]] | None = None
+    ) -> None:
+        """Have `heard` called, in any thread, after light was ended, by the guard (with its trip) or by a stop.
+        `disarm`: ends what arms lasers above class 2, on behalf of whom it is told, and returns of which; called
+        after a stop and a trip by a door, an emergency stop, a key or an interlock."""
         ...
 
     async def guarded(self) -> None:
@@ -107,9 +111,10 @@ class LightGuarded(Protocol):
         """Return the lasers whose light ends by itself once PICO is dead or frozen: they have a dead-man."""
         ...
 
-    async def end_light(self) -> Ended:
+    async def end_light(self, *, at_end: bool = False) -> Ended:
         """End all light now, for a person who asks for that, and return what became of each laser; needs no lease, and
-        no device but those of lasers and shutters. Raises PicoError if these can't be had at all."""
+        no device but those of lasers and shutters. `at_end`: because this process ends, and no armings with it. Raises
+        PicoError if these can't be had at all."""
         ...
 
 

@@ -157,6 +157,23 @@ def over(setup: Setup, place: BenchPlace, now: str) -> dict[str, str]:
     return found
 
 
+def disarm_all(setup: Setup, place: BenchPlace, by: str, now: str) -> tuple[str, ...]:
+    """End what arms lasers above class 2, also what has not begun, on behalf of `by`, and return of which. An arming
+    that can't be kept as ended, for the disk is full, is forgotten."""
+    found = []
+    for one in armings.kept(place):
+        given = one.arming
+        if given is None or not above_class_2(given.laser_class) or arming.over(setup, given, now):
+            continue
+        try:
+            armings.keep(place, arming.ended(setup, given, one.laser, by, given.backend, now))
+        except (PicoError, OSError):
+            with suppress(PicoError, OSError):
+                armings.forget(place, one.laser)
+        found.append(one.laser)
+    return tuple(found)
+
+
 def unlicensed(setup: Setup, seen: Observation) -> dict[str, str]:
     """Return the lasers that may shine and have no licence for the class that they are of, each with why: somebody took
     the waiver out of the Lab, another laser is in the housing, a clock was set back."""

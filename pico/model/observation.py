@@ -24,6 +24,8 @@ UNLOOKED = "unlooked"
 Presence = Literal["seen", "missing", "held", "toppled"]
 LACKING = ("driver", "plugin", "kind", "emulator")
 """Codes of problems of one device alone: its driver is not installed, or is broken, or nothing emulates it."""
+GUARD = "guard"
+"""The code of what the guard of light says: it ended light, or could not."""
 LOST = "arm-lost"
 """The code of the problem that an arm was lost since it was got ready."""
 

@@ -10,7 +10,7 @@ from pico.diagnostics import Diagnostic, error
 from pico.model.address import Renaming, renamed_keys, renaming_between
 from pico.model.diff import Change, diff_observed, show_value, value_distance
 from pico.model.lab import Lab
-from pico.model.observation import Observation, doubtful, slot_at
+from pico.model.observation import GUARD, Observation, doubtful, slot_at
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json
@@ -25,9 +25,13 @@ def staleness(setup: Setup, plan: Plan, seen: Observation) -> list[Diagnostic]:
     """Return what is not any more as `plan` assumes, saying what moved and by how much; empty for a plan that fits.
 
     The first that differs counts: the lab, the state that the plan starts from, a part that is to be picked: it must
-    stand where the plan picks it, within its tolerance, slot or not.
+    stand where the plan picks it, within its tolerance, slot or not. What the guard says of light that it ended comes
+    before light that changed.
     """
-    return changes_since(setup, plan, seen) or list(_moved(setup, plan, seen))
+    found = changes_since(setup, plan, seen) or list(_moved(setup, plan, seen))
+    if not any(one.address.endswith((".emission", ".shutter")) for one in found):
+        return found
+    return [*(replace(one, severity="error") for one in seen.problems if one.code == GUARD), *found]
 
 
 def changes_since(setup: Setup, plan: Plan, seen: Observation) -> list[Diagnostic]:

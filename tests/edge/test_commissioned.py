@@ -126,8 +126,11 @@ class Guarded(Real):
 
     dead_men = frozenset[str]()
 
-    def listen(self, heard: Any) -> None:
-        """Nothing ends light here."""
+    disarm: Any = None
+
+    def listen(self, heard: Any, disarm: Any) -> None:
+        """Nothing ends light here but a test."""
+        self.disarm = disarm
 
     def dark_by_itself(self) -> frozenset[str]:
         return self.dead_men
@@ -165,3 +168,20 @@ def test_without_a_dead_man_none_is_armed_above_class_2_unless_an_interlock_is_w
         lab = replace(bench.setup.lab, policy=replace(bench.setup.lab.policy, hard_wired_interlock=True))
         apparatus.setup = replace(bench.setup, lab=lab)
         assert bench.observe().licences["laser"].laser_class == "3R"  # type: ignore[index]
+
+
+def test_after_a_stop_or_a_trip_nothing_lets_light_out_until_a_person_arms_again(made: Path, tmp_path: Path) -> None:
+    with at(made, tmp_path) as (bench, _, root):
+        write(root, report())
+        apparatus = bench.edge.apparatus  # type: ignore[union-attr]
+        device = Guarded(apparatus.device._inner)  # type: ignore[attr-defined]
+        device.dead_men = frozenset({"laser"})
+        apparatus._opening = lambda setup: device  # type: ignore[assignment]
+        apparatus.become(bench.setup)
+        for _ in range(2):
+            bench.wait(bench.edge.arm(arming()))
+            assert bench.observe().licences["laser"].laser_class == "3R"  # type: ignore[index]
+            assert device.disarm("a stop") == ("laser",)
+            assert "laser" not in (bench.observe().licences or {})
+            with pytest.raises(PicoError, match="nobody has armed it"):
+                bench.apply(bench.single("laser", "set", shutter="open"))

@@ -352,3 +352,20 @@ def test_a_part_that_was_seen_badly_is_still_in_the_slot_that_it_was_in(
         assert refused(require_fresh, SETUP, made, seen) == (ExitCode.STALE, ["stale"])
     else:
         require_fresh(SETUP, made, seen)
+
+
+def test_a_plan_whose_light_the_guard_ended_says_that_first() -> None:
+    said = Diagnostic(
+        "warning", "guard", "guard: light of laser was ended at 14:02:03 because estop is not safe", hint="x"
+    )
+    lit = observed(laser={"emission": True, "shutter": "open"})
+    made = plan(base=lit)
+    dark = replace(observed(laser={"emission": False, "shutter": "closed"}), problems=(said,))
+    with pytest.raises(PicoError) as caught:
+        require_current(SETUP, made, dark)
+    first, *rest = caught.value.diagnostics
+    assert (first.summary, first.severity, first.hint) == (said.summary, "error", "x")
+    assert {one.code for one in rest} == {"stale"} and caught.value.exit_code == ExitCode.STALE
+    assert refused(require_current, SETUP, made, replace(dark, problems=())) == (ExitCode.STALE, ["stale", "stale"])
+    moved = replace(lit, problems=(said,), components={n: p for n, p in lit.components.items() if n != "holder"})
+    assert refused(require_current, SETUP, made, moved) == (ExitCode.STALE, ["stale"]), "that is no matter of light"

@@ -13,7 +13,7 @@ from pico.backends.by_sight import BySight
 from pico.backends.device import Began, Capabilities
 from pico.backends.devices import HARDWARE
 from pico.backends.hardware.clearing import clear, faults_of
-from pico.backends.hardware.guard.note import STOPPED, notices
+from pico.backends.hardware.guard.note import EDGE_END, STOPPED, notices
 from pico.backends.hardware.guard.note import read as read_note
 from pico.backends.hardware.guard.verdict import Trip
 from pico.backends.hardware.instruments import Instruments, unwired
@@ -374,9 +374,11 @@ class HardwareDevice:
         with suppress(PicoError):  # what has no devices at all emits nothing that PICO could end
             await self.end_light()
 
-    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
+    def listen(
+        self, heard: Callable[[Ended, Trip | None], None], disarm: Callable[[str], tuple[str, ...]] | None = None
+    ) -> None:
         """Have `heard` called after light was ended, see `pico.backends.device.LightGuarded`."""
-        self.links.listen(heard)
+        self.links.listen(heard, disarm)
 
     async def guarded(self) -> None:
         """Connect to the devices, and guard their light from now on."""
@@ -395,8 +397,10 @@ class HardwareDevice:
         lights = Lights(self.setup, self.place, self.links.about()).lights()
         return frozenset(light.laser for light in lights if closes_itself(light))
 
-    async def end_light(self) -> Ended:
+    async def end_light(self, *, at_end: bool = False) -> Ended:
         """End all light now, and return what became of each laser, see `pico.backends.device.LightGuarded`."""
+        if at_end:
+            return await self.links.lights().end("the edge of this bench was stopped", EDGE_END, disarms=False)
         return await self.links.lights().end("a person stopped the bench", STOPPED)
 
     async def leave(self) -> None:

@@ -9,10 +9,11 @@ from contextlib import suppress
 from dataclasses import replace
 
 from pico.backends.hardware.guard import note as notes
+from pico.backends.hardware.guard.aside import Aside
 from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
 from pico.backends.hardware.guard.note import Ended, Frozen, Note
-from pico.backends.hardware.guard.verdict import Trip
-from pico.backends.hardware.guard.watch import Guard, Told, Watched
+from pico.backends.hardware.guard.verdict import LIGHT, PRESENCE, Trip
+from pico.backends.hardware.guard.watch import WRITING, Guard, Told, Watched
 from pico.backends.hardware.instruments import Instruments
 from pico.base import clock
 from pico.diagnostics import PicoError
@@ -41,13 +42,17 @@ class Lights(Told):
         self.gates: Mapping[str, str] = {}
         """The shutter on the table that stands in the beam of a laser, as the bench was seen last."""
         self.listening: Callable[[Ended, Trip | None], None] | None = None
-        """Who writes the journal."""
+        """Who writes the journal; called in a thread of its own, for a journal that is locked keeps nothing waiting."""
+        self.disarming: Callable[[str], tuple[str, ...]] | None = None
+        """Who ends what arms lasers above class 2, on behalf of whom it is told, and returns of which."""
         self.session: Callable[[Trip], None] | None = None
         """Who has the bench: it hears of a trip before anything is closed."""
         self.moving: Callable[[], tuple[Arm, ...]] = tuple
         self._lock = threading.Lock()
         self._guard: Guard | None = None
-        self._outcome: object = None
+        self._outcomes: dict[str, object] = {}  # by laser: what was told of it, since light was let out
+        self._journal = Aside("pico guard journal")
+        self._over = False  # whether light was ended because this process ends, and is off
         self._dark = False  # whether all lasers were dark: what is let out then is let out anew
 
     def lights(self) -> tuple[Light, ...]:
@@ -102,35 +107,47 @@ class Lights(Told):
         guard, self._guard = self._guard, None
         if guard is not None:
             guard.close()
-            if guard.is_dark:
+            self._journal.finish(WRITING)
+            if guard.is_dark or self._over:
                 self._kept(lambda note: replace(note, watch=None))
 
-    async def end(self, why: str, by: str) -> Ended:
-        """End all light now, because of `why`; return what became of each laser, and keep that."""
+    async def end(self, why: str, by: str, *, disarms: bool = True) -> Ended:
+        """End all light now, because of `why`; return what became of each laser, and keep that. `disarms`: what arms
+        lasers above class 2 ends with it."""
 
         def now(ends: tuple[LightEnd, ...]) -> Ended:
             known = {one.laser for one in ends}
             loose = (LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known)
             return Ended(at=clock.now(), why=why, by=by, ends=(*(one for one in ends if one.laser), *loose))
 
+        disarming = asyncio.create_task(asyncio.to_thread(self._disarmed, by, disarms))
         ends = await end_light((*self.lights(), *self._loose()), lambda ends: self._note(now(ends)))
-        ended = now(ends)
+        ended = replace(now(ends), disarmed=await disarming)
+        self._over = by == notes.EDGE_END and all(one.is_dark for one in ended.ends)
         if ended.ends:
             await asyncio.to_thread(self._tell, ended, None)
+            await asyncio.to_thread(self._journal.finish, WRITING)
+            if (said := notes.read(self._place).ended) is not None:  # a stop that is given again says it again
+                ended = replace(ended, disarmed=tuple(sorted({*ended.disarmed, *said.disarmed})))
         return ended
 
+    def _disarmed(self, by: str, disarms: bool) -> tuple[str, ...]:
+        return self.disarming(by) if disarms and self.disarming is not None else ()
+
     def _note(self, ended: Ended) -> None:
-        self._kept(lambda note: replace(note, ended=ended))
+        self._kept(lambda note: notes.with_ended(note, ended))
 
     def _tell(self, ended: Ended, trip: Trip | None) -> None:
         self._note(ended)
-        if self.listening is not None:
-            self.listening(ended, trip)
+        if (heard := self.listening) is not None:
+            self._journal.do(lambda: heard(ended, trip))
 
     async def tripped(self, why: str) -> None:
         """Keep that an operation ended light because of `why`, if a laser was lit."""
         if self._guard is not None and self._guard.lit:
-            await self.end(why, notes.GUARDED)
+            inputs = self._bench.inputs.items()
+            curtain = any(entry.kind in PRESENCE and why.startswith(f"{name} (") for name, (entry, _) in inputs)
+            await self.end(why, notes.GUARDED, disarms=not curtain)
 
     def _loose(self) -> tuple[Light, ...]:
         used = {address for light in self.lights() for address in light.shutters}
@@ -144,20 +161,26 @@ class Lights(Told):
             self.session(trip)
 
     def slow(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
-        if self._outcome is None:  # else it is told already that it could not be ended
-            self._note(Ended(at=clock.now(), why=trip.said, ends=ends))
+        if not {end.laser for end in ends} <= self._outcomes.keys():  # else it is told that it could not be ended
+            self._note(self._of(trip, ends))
 
     def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
-        ended = Ended(at=clock.now(), why=trip.said, ends=ends)
-        outcome = [(end.laser, end.is_dark) for end in ends], [cause.name for cause in trip.causes]
-        if outcome == self._outcome and not all(end.is_dark for end in ends):
+        causes = [cause.name for cause in trip.causes]
+        outcomes = {end.laser: (end.is_dark, causes) for end in ends}
+        known = {name: self._outcomes.get(name) for name in outcomes}
+        if outcomes == known and not all(end.is_dark for end in ends):
             return  # it was tried again, in vain: that is told already
-        self._outcome = outcome
-        self._tell(ended, trip)
+        self._outcomes |= outcomes
+        self._tell(self._of(trip, ends), trip)
+
+    def _of(self, trip: Trip, ends: tuple[LightEnd, ...]) -> Ended:
+        """Return what is told of a trip. One by a door, an emergency stop, a key or an interlock ends armings."""
+        disarmed = self._disarmed(notes.GUARDED, any(cause.kind in LIGHT for cause in trip.causes))
+        return Ended(at=clock.now(), why=trip.said, ends=ends, disarmed=disarmed)
 
     def lit(self, lasers: tuple[str, ...]) -> None:
         if lasers and self._dark:
-            self._outcome = None
+            self._outcomes.clear()
 
         def changed(note: Note) -> Note:
             if not lasers:
@@ -173,9 +196,9 @@ class Lights(Told):
         self._kept(lambda note: replace(note, frozen=Frozen(until=clock.now(), seconds=seconds, lasers=lasers)))
 
     def _kept(self, change: Callable[[Note], Note]) -> None:
-        with self._lock, suppress(PicoError):  # a full disk keeps no light on
+        with self._lock, suppress(PicoError):  # a full disk keeps no light on; the note says then that it is full
             before = notes.read(self._place)
-            if (after := change(before)) != before:
+            if (after := change(before)) != before or notes.is_unwritten(self._place):
                 notes.write(self._place, after)
 
 

@@ -68,6 +68,7 @@ class Links:
         self._about: Instruments | None = None
         self._lights: Lights | None = None
         self._heard: Callable[[Ended, Trip | None], None] | None = None
+        self._disarm: Callable[[str], tuple[str, ...]] | None = None
         self._connecting = asyncio.Lock()
 
     @property
@@ -131,14 +132,16 @@ class Links:
         had at all."""
         if self._lights is None:
             self._lights = Lights(self.setup, self.place, self._wired())
-            self._lights.listening = self._heard
+            self._lights.listening, self._lights.disarming = self._heard, self._disarm
         return self._lights
 
-    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
-        """Have `heard` called, in any thread, after light was ended."""
-        self._heard = heard
+    def listen(
+        self, heard: Callable[[Ended, Trip | None], None], disarm: Callable[[str], tuple[str, ...]] | None = None
+    ) -> None:
+        """Have `heard` called, in any thread, after light was ended, and `disarm` if armings end with it."""
+        self._heard, self._disarm = heard, disarm
         if self._lights is not None:
-            self._lights.listening = heard
+            self._lights.listening, self._lights.disarming = heard, disarm
 
     async def reached(self) -> dict[str, DeviceEntry]:
         """Connect, and return the devices with the addresses that lead to them; raises PicoError as `instruments`."""

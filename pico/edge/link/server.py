@@ -154,7 +154,7 @@ async def serve(
     finally:
         if edge.place.name == HARDWARE and edge.leaves_light():  # from now on nobody would guard it
             with suppress(PicoError):
-                await edge.end_light()
+                await edge.end_light(at_end=True)
         await server.close()
 
 

@@ -24,6 +24,7 @@ class Apparatus:
     ) -> None:
         self.place, self._opening = place, opening
         self._heard: Callable[[Ended, Trip | None], None] | None = None
+        self._disarm: Callable[[str], tuple[str, ...]] | None = None
         self.setup, self.device = setup, self._opened(setup)
         self.now, self.journals = clock, Remembering(place, clock)
         self._usual: tuple[Setup, Device] | None = None
@@ -31,14 +32,15 @@ class Apparatus:
     def _opened(self, setup: Setup) -> Device:
         device = self._opening(setup)
         if self._heard is not None and isinstance(device, LightGuarded):
-            device.listen(self._heard)
+            device.listen(self._heard, self._disarm)
         return device
 
-    def listen(self, heard: Callable[[Ended, Trip | None], None]) -> None:
-        """Have `heard` called, in any thread, after light was ended beside a run."""
-        self._heard = heard
+    def listen(self, heard: Callable[[Ended, Trip | None], None], disarm: Callable[[str], tuple[str, ...]]) -> None:
+        """Have `heard` called, in any thread, after light was ended beside a run, and `disarm` if armings end with
+        it."""
+        self._heard, self._disarm = heard, disarm
         if isinstance(self.device, LightGuarded):
-            self.device.listen(heard)
+            self.device.listen(heard, disarm)
 
     @property
     def usual(self) -> Setup:

@@ -69,7 +69,7 @@ class LocalEdge(Edge):
         self.custody = Custody(self.apparatus, self.sight, self.licensing, self.lock, self._kept)
         self.runs = Runs(self.apparatus, self.sight, self.licensing, self.custody, self._kept)
         self.custody.tenant = self.runs
-        self.apparatus.listen(self._light_ended)
+        self.apparatus.listen(self._light_ended, self._disarm)
 
     def _light_ended(self, ended: Ended, trip: Trip | None) -> None:
         """Write into the journal that light was ended beside a run; called in any thread."""
@@ -79,6 +79,13 @@ class LocalEdge(Edge):
         token = lease.token if lease is not None else self.lock.last_token()
         own = self.apparatus
         record_ended(own.setup, own.device, own.journals.path, ended, self.run_under_way(), token)
+
+    def _disarm(self, by: str) -> tuple[str, ...]:
+        """End what arms lasers above class 2, and return of which; called in any thread."""
+        from pico.edge.emission import disarm_all
+
+        own = self.apparatus
+        return disarm_all(own.setup, own.place, by, own.now())
 
     # the bench
 
@@ -251,11 +258,12 @@ class LocalEdge(Edge):
     async def stop(self) -> None:
         await self.custody.stop()
 
-    async def end_light(self) -> Ended | None:
+    async def end_light(self, *, at_end: bool = False) -> Ended | None:
         """End all light now, whoever has the bench, and return what became of each laser; None if nothing emits here.
+        `at_end`: because the process ends that serves the bench.
         Raises PicoError if no device can be had at all."""
         device = self.apparatus.device
-        return await device.end_light() if isinstance(device, LightGuarded) else None
+        return await device.end_light(at_end=at_end) if isinstance(device, LightGuarded) else None
 
     def leaves_light(self) -> bool:
         """Return whether this process has the links of lasers of which one may emit: its guard ends with it."""

@@ -99,13 +99,18 @@ def entry(box: Box, kind: str, name: str, of: str | None = None, **settings: Any
 
 
 @contextmanager
-def guarded(root: Path, *, watch: bool = True, watchdog: float | None = None, **policy: Any) -> Iterator[Rig]:
+def guarded(
+    root: Path, *, watch: bool = True, watchdog: float | None = None, head_watchdog: float | None = None,
+    **policy: Any,
+) -> Iterator[Rig]:  # fmt: skip
     """Yield a bench whose lasers emit, with its guard at work unless told otherwise."""
     lasers = Box({name: (kind, True) for name, (_, kind) in LIGHTS.items()})
     inputs = Box(dict.fromkeys(INPUTS, ("input", True)))
     more = {"watchdog": watchdog} if watchdog is not None else {}
+    head = {"watchdog": head_watchdog} if head_watchdog is not None else {}
+    own = {"shutter": more, "laser": head}
     devices = {
-        name: entry(lasers, kind, name, of, **(more if kind == "shutter" else {}))
+        name: entry(lasers, kind, name, of, **(own[kind] if of == "laser" else {}))
         for name, (of, kind) in LIGHTS.items()
     }
     devices |= {name: entry(inputs, "input", name) for name in INPUTS}

@@ -3,19 +3,28 @@
 from __future__ import annotations
 
 import asyncio
+import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
-from boxes import INPUTS, guarded, until
+from bench_at import bench_at
+from boxes import INPUTS, LIGHTS, guarded, until
 
-from pico.backends.hardware.guard.ending import Closing, LightEnd
+from pico.backends.hardware.guard.ending import Closing, Light, LightEnd
 from pico.backends.hardware.guard.hearing import HELD, SILENT, Hearing
-from pico.backends.hardware.guard.note import Note, notices, read, watching, write
+from pico.backends.hardware.guard.note import Ended, Note, notices, read, watching, with_ended, write
 from pico.backends.hardware.guard.verdict import Cause, Trip
+from pico.backends.hardware.guard.watch import Guard, Told, Watched
+from pico.base import clock
 from pico.base.awake import Awake
 from pico.diagnostics import PicoError
+from pico.drivers.protocols import SafetyState
+from pico.model.wiring import SafetyEntry
 
 BAR, LOST = 0.5, 1.0
 """Within which light ends [s]: of an unsafe input, and of one whose link was lost."""
@@ -199,3 +208,151 @@ def test_a_guard_that_stood_still_blames_no_device_and_one_that_is_starved_notic
         clock.at += 0.5
         silent = hearing.silence("a.shutter", awake.now(), SILENT)
     assert "has not answered" in silent
+
+
+class Head:
+    """A laser that answers at once; one that is `silent` answers nothing."""
+
+    def __init__(self) -> None:
+        self.on, self.silent = True, False
+
+    async def emit(self, on: bool) -> bool:
+        if self.silent:
+            await asyncio.sleep(30.0)
+        self.on = on
+        return on
+
+    async def emitting(self) -> bool:
+        if self.silent:
+            await asyncio.sleep(30.0)
+        return self.on
+
+
+class Door:
+    """A safety input that a test opens."""
+
+    safe = True
+
+    async def read(self) -> SafetyState:
+        return SafetyState(safe=self.safe, age=0.0)
+
+
+class Stuck:
+    """An arm whose stop never ends."""
+
+    asked = 0
+
+    async def stop(self) -> None:
+        self.asked += 1
+        await asyncio.sleep(30.0)
+
+
+class Slow(Told):
+    """Who writes to a disk that hangs."""
+
+    def __init__(self) -> None:
+        self.released = threading.Event()
+
+    def trips(self, trip: Trip) -> None:
+        raise ValueError("a fault of who hears it")
+
+    def ended(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
+        self.released.wait(10.0)
+
+
+@contextmanager
+def watched(heads: dict[str, Head], door: Door, told: Told, arm: Stuck | None = None) -> Iterator[Guard]:
+    entry = SafetyEntry(kind="door", device="door_box", heartbeat=0.5)
+    own: Any = Watched(
+        lights=lambda: tuple(Light(n, (f"{n}.emission", one), {}) for n, one in heads.items()),  # type: ignore[arg-type]
+        shutters={}, emissions={f"{n}.emission": one for n, one in heads.items()},  # type: ignore[misc]
+        inputs={"door": (entry, door)}, classes=dict.fromkeys(heads, "3B"),  # type: ignore[dict-item]
+        arms=lambda: (arm,) if arm else (),  # type: ignore[return-value,arg-type]
+    )  # fmt: skip
+    guard = Guard(own, told)
+    guard.start()
+    try:
+        until(lambda: len(guard.lit) == len(heads))
+        yield guard
+    finally:
+        for one in heads.values():
+            one.silent = False
+        guard.close()
+
+
+def off_within(head: Head, seconds: float = BAR) -> None:
+    until(lambda: not head.on, seconds)
+
+
+def test_a_silent_box_keeps_the_light_of_no_other_laser_on(tmp_path: Path) -> None:
+    heads, door = {"bare": Head(), "second": Head()}, Door()
+    with watched(heads, door, Told()) as guard:
+        heads["second"].silent = True
+        until(lambda: "second.emission" in guard._closings)
+        assert heads["bare"].on
+        door.safe = False
+        off_within(heads["bare"])
+        assert "second.emission" in guard._closings, "while the silent one is still waited for"
+
+
+def test_neither_a_journal_that_hangs_nor_an_arm_that_does_not_stop_delays_the_next_closing() -> None:
+    heads, door, arm, told = {"bare": Head()}, Door(), Stuck(), Slow()
+    with watched(heads, door, told, arm):
+        try:
+            for _ in range(3):
+                door.safe = False
+                off_within(heads["bare"])
+                door.safe = True
+                time.sleep(0.25)
+                heads["bare"].on = True  # at its own key
+                time.sleep(0.25)
+            assert heads["bare"].on and arm.asked == 1, "an arm that is being stopped is not asked again"
+        finally:
+            told.released.set()
+
+
+def test_a_locked_journal_keeps_no_note_and_no_light_waiting(tmp_path: Path) -> None:
+    released = threading.Event()
+    with guarded(tmp_path) as rig:
+        rig.lights.listening = lambda ended, trip: released.wait(10.0)  # type: ignore[assignment]
+        try:
+            for name in ("lock", "door_box"):
+                rig.inputs.put(name, False)
+                rig.ends_within(BAR)
+                until(lambda name=name: f"because {name}" in str(notices(read(rig.place))), 1.0)
+                rig.inputs.put(name, True)
+                time.sleep(0.3)
+                for lit in LIGHTS:
+                    rig.lasers.put(lit, True)
+                until(lambda: rig.lights.guard is not None and len(rig.lights.guard.lit) == 2)
+        finally:
+            released.set()
+
+
+def test_what_was_told_of_one_laser_stays_when_another_one_is_ended_later(tmp_path: Path) -> None:
+    place = bench_at(tmp_path, "hardware")
+    silent = LightEnd(laser="bare", closings=(Closing(address="bare.emission", dark=False, wrong="it is silent"),))
+    dark = LightEnd(laser="laser", closings=(Closing(address="laser.shutter", dark=True),))
+    first = Ended(at=clock.now(), why="bare.emission is silent", ends=(silent,))
+    note = with_ended(Note(ended=first), replace(first, why="the door is open", ends=(dark,)))
+    place.folder.mkdir(parents=True, exist_ok=True)
+    write(place, note)
+    said = " ".join(one.summary for one in notices(read(place)))
+    assert "bare MAY STILL EMIT" in said and "light of laser was ended" in said and "the door is open" in said
+    again = with_ended(note, replace(first, why="stop", ends=(dark, silent)))
+    assert again.earlier == (), "the newest word on a laser counts"
+
+
+def test_the_dead_man_of_a_head_is_kept_while_it_warms_up_behind_its_closed_shutter(tmp_path: Path) -> None:
+    with guarded(tmp_path, head_watchdog=1.0) as rig:
+        rig.lasers.put("laser_shutter", False)
+        rig.lasers.put("laser_head", False)
+        until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ("bare",))
+        rig.lasers.put("bare_head", False)
+        until(lambda: rig.lights.guard is not None and rig.lights.guard.lit == ())
+        assert asyncio.run(rig.lights.emissions["laser.emission"].emit(True))
+        time.sleep(2.2)
+        assert rig.lasers.is_("laser_head"), "light may be let out of it"
+        assert rig.lights.guard is not None
+        rig.lights.guard.close()
+        until(lambda: not rig.lasers.is_("laser_head"), 2.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -16,7 +17,11 @@ from pico.backends.device import Capabilities
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.backends.hardware.guard.note import Ended
 from pico.base.state_files import JOURNAL
+from pico.diagnostics import PicoError, error
+from pico.edge import armings, emission
 from pico.edge.guard.journaling import record_ended
+from pico.model.arming import Arming, ArmingPolicy, LaserRole
+from pico.places.bench import BenchPlace
 from pico.runs.journal import Journal
 
 SETUP = bench()
@@ -64,3 +69,34 @@ def test_it_is_written_from_any_loop_that_runs(tmp_path: Path) -> None:
     asyncio.run(within())
     with closing(Journal(path)) as journal:
         assert [(run.holder, run.outcome) for run in journal.runs()] == [("a stop", "done")]
+
+
+LATER, NOW = "2099-11-24T12:00:00Z", "2026-11-24T12:00:00Z"
+
+
+def armed(place: BenchPlace, laser: str, of: Any, begins: str = "2026-11-24T10:00:00Z") -> None:
+    armings.keep(place, Arming(laser=laser, by="Ada", role="user", laser_class=of, begins=begins, ends=LATER,
+                               backend="hardware"))  # fmt: skip
+
+
+def test_what_arms_lasers_above_class_2_is_over_and_nothing_else(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    place, roles = bench_at(tmp_path), {"user": LaserRole(people=("Ada",), laser_class="3B")}
+    policy = replace(SETUP.lab.policy, arming=ArmingPolicy(roles=roles))
+    setup = replace(SETUP, lab=replace(SETUP.lab, policy=policy))
+    armed(place, "laser", "3B")
+    armed(place, "bare", "3R", LATER)
+    armed(place, "second", "2")
+    assert emission.disarm_all(setup, place, "a stop", NOW) == ("bare", "laser")
+    over = emission.over(setup, place, NOW)
+    assert over == {"bare": "a stop disarmed it", "laser": "a stop disarmed it"}
+    assert emission.disarm_all(setup, place, "the guard", NOW) == (), "it is over already"
+
+    def full(*_: Any, **__: Any) -> None:
+        raise PicoError(error("unwritable", "the disk is full"))
+
+    armed(place, "laser", "3B")
+    monkeypatch.setattr(armings, "keep", full)
+    assert emission.disarm_all(setup, place, "a stop", NOW) == ("laser",)
+    assert "laser" not in {one.laser for one in armings.kept(place)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 
 from pico.diagnostics import PicoError
 from pico.drivers.protocols import Laser, Shutter
@@ -54,13 +55,21 @@ class LightEnd:
         return "; ".join(f"{one.address}: {one.wrong}" for one in self.closings if one.wrong)
 
 
+UnderWay = dict[str, asyncio.Task[Closing]]
+"""The devices that are being closed now, by address."""
+
+
 async def end_light(
-    lights: Iterable[Light], slow: Callable[[tuple[LightEnd, ...]], object] | None = None
+    lights: Iterable[Light],
+    slow: Callable[[tuple[LightEnd, ...]], object] | None = None,
+    under_way: UnderWay | None = None,
 ) -> tuple[LightEnd, ...]:
     """Close the shutters of these lasers and switch off their emission, at once, and return what became of each; waits
     for no device longer than PATIENCE. `slow`: is given the state of all after SOON if a device did not answer by then.
+    `under_way`: what others are closing, too: a device there is not closed a second time.
     """
-    jobs = [(light.laser, _begun(light)) for light in lights]
+    under_way = {} if under_way is None else under_way
+    jobs = [(light.laser, _begun(light, under_way)) for light in lights]
     tasks = [task for _, closings in jobs for task in closings.values()]
     _, late = await asyncio.wait(tasks, timeout=SOON) if tasks else (None, None)
     if late and slow is not None:
@@ -70,12 +79,20 @@ async def end_light(
     return _ends(jobs)
 
 
-def _begun(light: Light) -> dict[str, asyncio.Task[Closing]]:
-    work = {address: shutter.open(False) for address, shutter in light.shutters.items()}
+def _begun(light: Light, under_way: UnderWay) -> UnderWay:
+    ways: dict[str, Callable[[bool], Awaitable[bool]]] = {a: one.open for a, one in light.shutters.items()}
     if light.emission is not None:
         address, laser = light.emission
-        work[address] = laser.emit(False)
-    return {address: asyncio.create_task(_closed(address, closing)) for address, closing in work.items()}
+        ways[address] = laser.emit
+    for address, way in ways.items():
+        if address not in under_way:
+            task = under_way[address] = asyncio.create_task(_closed(address, way))
+            task.add_done_callback(partial(_over, under_way, address))
+    return {address: under_way[address] for address in ways}
+
+
+def _over(under_way: UnderWay, address: str, _: object) -> None:
+    under_way.pop(address, None)
 
 
 def _ends(jobs: Iterable[tuple[str, Mapping[str, asyncio.Task[Closing]]]]) -> tuple[LightEnd, ...]:
@@ -92,12 +109,14 @@ def _ends(jobs: Iterable[tuple[str, Mapping[str, asyncio.Task[Closing]]]]) -> tu
     )
 
 
-async def _closed(address: str, work: Awaitable[bool]) -> Closing:
+async def _closed(address: str, way: Callable[[bool], Awaitable[bool]]) -> Closing:
     try:
-        on = await asyncio.wait_for(work, PATIENCE)
+        on = await asyncio.wait_for(way(False), PATIENCE)
     except TimeoutError:
         return Closing(address=address, dark=False, wrong=f"it did not answer within {PATIENCE:g} s")
     except PicoError as exc:
         return Closing(address=address, dark=False, wrong=exc.diagnostics[0].summary)
+    except Exception as exc:  # a fault of a driver must not keep the others from being told
+        return Closing(address=address, dark=False, wrong=f"its driver failed: {exc}")
     wrong = "it still reads open" if address.endswith(".shutter") else "it still reads on"
     return Closing(address=address, dark=not on, wrong=wrong if on else "")

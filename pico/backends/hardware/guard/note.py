@@ -3,22 +3,25 @@ why, and where a guard was killed or frozen while a laser emitted. Whoever opens
 
 from __future__ import annotations
 
+import math
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.base import clock
-from pico.base.state_files import GUARD
-from pico.diagnostics import Diagnostic, warning
+from pico.base.state_files import GUARD as FILE
+from pico.diagnostics import Diagnostic, PicoError, warning
+from pico.model.observation import GUARD
 from pico.model.record import as_json, record
 from pico.places.bench import BenchPlace
 
-CODE = "guard"
+T = TypeVar("T")
+CODE = GUARD
 """The code of all that is said of the guard."""
-GUARDED, STOPPED = "the guard", "a stop"
+GUARDED, STOPPED, EDGE_END = "the guard", "a stop", "the end of the edge"
 """By whom light was ended."""
 
 
@@ -36,13 +39,14 @@ class Watch:
 
 @record
 class Ended:
-    """That light was ended: when (ISO 8601, UTC), why, and what became of each laser. `by`: the guard, or a person's
-    stop."""
+    """That light was ended: when (ISO 8601, UTC), why, and what became of each laser. `by`: the guard, a person's
+    stop, or the end of the process that served the bench. `disarmed`: the lasers whose arming has ended with it."""
 
     at: str
     why: str
     ends: tuple[LightEnd, ...]
     by: str = GUARDED
+    disarmed: tuple[str, ...] = ()
 
 
 @record
@@ -56,27 +60,62 @@ class Frozen:
 
 @record
 class Note:
-    """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark."""
+    """All that is kept of the guard of one bench. `killed`: who guarded lasers and died before they were dark.
+    `earlier`: what was ended before, since light was let out, of lasers that `ended` does not name. `wrong`: why its
+    file does not say this; never written."""
 
-    schema: str = GUARD.schema
+    schema: str = FILE.schema
     watch: Watch | None = None
     ended: Ended | None = None
     killed: Watch | None = None
     frozen: Frozen | None = None
+    earlier: tuple[Ended, ...] = ()
+    wrong: Diagnostic | None = None
+
+
+def with_ended(note: Note, ended: Ended) -> Note:
+    """Return a note with light that was ended now; what it says of other lasers stays."""
+    names = {one.laser for one in ended.ends}
+    before = (*((note.ended,) if note.ended is not None else ()), *note.earlier)
+    if note.ended is not None and note.ended.disarmed:
+        ended = replace(ended, disarmed=tuple(sorted({*ended.disarmed, *note.ended.disarmed})))
+    left = (replace(one, ends=tuple(end for end in one.ends if end.laser not in names)) for one in before)
+    return replace(note, ended=ended, earlier=tuple(one for one in left if one.ends))
+
+
+_unwritten: dict[Path, Note] = {}
+"""What this process could not write, by file: it says it nevertheless, as long as it lives."""
 
 
 def read(place: BenchPlace) -> Note:
-    """Return what is kept of the guard of a bench; a watch whose process is gone counts as killed, but on an emulated
-    bench, where light ended with that process."""
-    note = GUARD.read(GUARD.path(place.folder), _note) or Note()
+    """Return what is kept of the guard of a bench, by this process alone if its file can't be written; a watch whose
+    process is gone counts as killed, but on an emulated bench, where light ended with that process. Of a file that is
+    damaged only that is returned."""
+    path = FILE.path(place.folder)
+    if path in _unwritten:
+        return _unwritten[path]
+    if (note := FILE.read(path, _note)) is None:
+        return Note(wrong=FILE.wrong(path, _note))
     if note.watch is not None and not _alive(note.watch):
         note = replace(note, killed=None if place.name == "emulated" else note.watch, watch=None)
     return note
 
 
 def write(place: BenchPlace, note: Note) -> None:
-    """Keep it; raises PicoError if it can't be written."""
-    GUARD.write(GUARD.path(place.folder), as_json(note), what="what the guard did can't be kept", durable=False)
+    """Keep it; raises PicoError if it can't be written, and then this process alone knows it."""
+    path, whole = FILE.path(place.folder), replace(note, wrong=None)
+    document = {key: value for key, value in as_json(whole).items() if key != "wrong"}
+    try:
+        FILE.write(path, document, what="what the guard did can't be kept", durable=False)
+    except PicoError as exc:
+        _unwritten[path] = replace(note, wrong=exc.diagnostics[0])
+        raise
+    _unwritten.pop(path, None)
+
+
+def is_unwritten(place: BenchPlace) -> bool:
+    """Return whether this process knows what its file does not say."""
+    return FILE.path(place.folder) in _unwritten
 
 
 def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
@@ -87,11 +126,16 @@ def watching(lasers: tuple[str, ...], closes_itself: tuple[str, ...]) -> Watch:
 def notices(note: Note) -> tuple[Diagnostic, ...]:
     """Return what a person must know of the guard, the most urgent first; nothing while all is as it should be."""
     found = list[Diagnostic]()
-    if note.ended is not None:
-        found += [_left_lit(note.ended, one) for one in note.ended.ends if not one.is_dark]
-        dark = [one for one in note.ended.ends if one.is_dark]
-        if dark and note.ended.by == GUARDED:
-            found.append(_dark(note.ended, dark))
+    every = (*((note.ended,) if note.ended is not None else ()), *note.earlier)
+    found += [_left_lit(ended, one) for ended in every for one in ended.ends if not one.is_dark]
+    for ended in every:
+        dark = [one for one in ended.ends if one.is_dark]
+        if dark and ended.by == GUARDED:
+            found.append(_dark(ended, dark))
+        elif dark and ended.by == EDGE_END:
+            names = ", ".join(one.laser for one in dark)
+            text = f"guard: the edge of this bench was stopped at {_local(ended.at)}, and light of {names} is off"
+            found.append(Diagnostic("note", CODE, text, hint="let light out anew when it is needed"))
     if note.killed is not None:
         found.append(_killed(note.killed))
     if note.frozen is not None:
@@ -100,6 +144,9 @@ def notices(note: Note) -> tuple[Diagnostic, ...]:
         )
         text += f"{', '.join(note.frozen.lasers)} could emit unwatched"
         found.append(warning(CODE, text, hint="find out what froze this computer; `pico laser` shows the lasers"))
+    if note.wrong is not None:
+        text = f"guard: {note.wrong.summary}"
+        found.append(warning(CODE, text, detail=note.wrong.detail, hint=note.wrong.hint))
     return tuple(found)
 
 
@@ -109,7 +156,11 @@ def _dark(ended: Ended, ends: Sequence[LightEnd]) -> Diagnostic:
     wrong = "; ".join(one.wrong for one in ends if one.wrong)
     text = f"guard: light of {names} was ended at {_local(ended.at)} because {ended.why}"
     detail = f"dark now: {closed}" + (f"; not reached: {wrong}" if wrong else "")
-    return warning(CODE, text, detail=detail, hint="make the table safe, then let light out anew")
+    hint = "make the table safe, then let light out anew"
+    if ended.disarmed:
+        again = ", ".join(f"`pico laser arm {name}`" for name in ended.disarmed)
+        hint = f"make the table safe, then arm again what was armed: {again}"
+    return warning(CODE, text, detail=detail, hint=hint)
 
 
 def _left_lit(ended: Ended, one: LightEnd) -> Diagnostic:
@@ -156,23 +207,70 @@ def _boot() -> str:
 
 
 def _note(document: Mapping[str, Any]) -> Note:
-    def each(key: str, make: Any) -> Any:
+    def each(key: str, make: Callable[[Any], T]) -> T | None:
         return make(document[key]) if document.get(key) is not None else None
 
     return Note(
         watch=each("watch", _watch), ended=each("ended", _ended), killed=each("killed", _watch),
-        frozen=each("frozen", lambda d: Frozen(**{**d, "lasers": tuple(d["lasers"])})),
+        frozen=each("frozen", _frozen), earlier=tuple(_ended(one) for one in document.get("earlier", ())),
     )  # fmt: skip
 
 
 def _watch(document: Mapping[str, Any]) -> Watch:
-    lists = {key: tuple(document.get(key, ())) for key in ("lasers", "closes_itself")}
-    return Watch(**{**document, **lists})
+    pid = document["pid"]
+    if type(pid) is not int or not 0 < pid < 2**31:
+        raise ValueError(f"pid is {str(pid)[:20]}, which is no process")
+    return Watch(
+        pid=pid, since=_time(document, "since"), lasers=_names(document, "lasers"),
+        closes_itself=_names(document, "closes_itself") if "closes_itself" in document else (),
+        boot=_text(document, "boot") if "boot" in document else "",
+    )  # fmt: skip
 
 
 def _ended(document: Mapping[str, Any]) -> Ended:
     ends = tuple(
-        LightEnd(laser=one["laser"], closings=tuple(Closing(**closing) for closing in one["closings"]))
+        LightEnd(laser=_text(one, "laser"), closings=tuple(_closing(closing) for closing in one["closings"]))
         for one in document["ends"]
     )
-    return Ended(at=document["at"], why=document["why"], by=document["by"], ends=ends)
+    return Ended(
+        at=_time(document, "at"),
+        why=_text(document, "why"),
+        by=_text(document, "by"),
+        ends=ends,
+        disarmed=_names(document, "disarmed") if "disarmed" in document else (),
+    )
+
+
+def _closing(document: Mapping[str, Any]) -> Closing:
+    if type(document["dark"]) is not bool:
+        raise ValueError("dark is neither true nor false")
+    return Closing(address=_text(document, "address"), dark=document["dark"], wrong=str(document.get("wrong", "")))
+
+
+def _frozen(document: Mapping[str, Any]) -> Frozen:
+    seconds = document["seconds"]
+    if type(seconds) not in (int, float) or not math.isfinite(seconds):
+        raise ValueError(f"seconds is {str(seconds)[:20]}, which is no time")
+    return Frozen(until=_time(document, "until"), seconds=seconds, lasers=_names(document, "lasers"))
+
+
+def _text(document: Mapping[str, Any], key: str) -> str:
+    if not isinstance(text := document[key], str):
+        raise ValueError(f"{key} is {str(text)[:20]}, which is no text")
+    return text
+
+
+def _time(document: Mapping[str, Any], key: str) -> str:
+    text = _text(document, key)
+    try:
+        _local(text)
+    except (ValueError, OverflowError) as exc:
+        raise ValueError(f"{key} is {text[:20]!r}, which is no time") from exc
+    return text
+
+
+def _names(document: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    names = document[key]
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise ValueError(f"{key} is {str(names)[:20]}, which are no names")
+    return tuple(names)

@@ -1,7 +1,8 @@
 """The guard at work: a thread with a loop of its own that asks lasers, shutters and safety inputs, and ends light.
 
 It needs no lease, and nothing that runs can keep it waiting: each device has a worker thread of its own
-(`pico.drivers.bus`) through which runs and guard ask in turn, and closing goes before all that waits there.
+(`pico.drivers.bus`) through which runs and guard ask in turn, and closing goes before all that waits there. Each device
+is closed on its own: one that is silent, an arm that does not stop or a disk that is slow keeps no other light on.
 """
 
 from __future__ import annotations
@@ -11,10 +12,12 @@ import threading
 import time
 from collections.abc import Awaitable, Callable, Coroutine, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
-from pico.backends.hardware.guard.ending import Light, LightEnd, end_light
+from pico.backends.hardware.guard.aside import Aside
+from pico.backends.hardware.guard.ending import Light, LightEnd, UnderWay, end_light
 from pico.backends.hardware.guard.hearing import HELD, Hearing
 from pico.backends.hardware.guard.verdict import LaserState, Trip, verdict
 from pico.base.awake import Awake
@@ -31,6 +34,10 @@ ASKING = 0.5
 """How long one question may take [s]; the next one is asked then."""
 AGAIN = 0.5
 """Seconds after which light that could not be ended is tried again."""
+HALTING = 2.5
+"""How long an arm may take to stop [s]; nothing waits for it."""
+WRITING = 6.0
+"""How long what was done may take to be written when the guard ends [s]."""
 FROZE = 1.0
 """A pause of EVERY that took so long is told: light was unwatched meanwhile [s]."""
 A_DAY = 86400.0
@@ -53,10 +60,10 @@ class Watched:
 
 
 class Told:
-    """Who hears what a guard does; called in the guard's thread, or one of its own. By default nobody does."""
+    """Who hears what a guard does, in a thread of its own that no closing waits for. By default nobody does."""
 
     def trips(self, trip: Trip) -> None:
-        """Hear, before anything is closed, that light ends; must return at once."""
+        """Hear, in the guard's own thread and before anything is closed, that light ends; must return at once."""
 
     def slow(self, trip: Trip, ends: tuple[LightEnd, ...]) -> None:
         """Hear how each laser stands while a device has not answered yet that is to end its light."""
@@ -83,9 +90,11 @@ class Guard:
         self._begun = threading.Event()
         self._lit: tuple[str, ...] = ()
         self._judged = False
-        self._acting: asyncio.Task[None] | None = None
-        self._tried = float("-inf")
-        self._last: object = None
+        self._closings: UnderWay = {}
+        self._halts: dict[int, asyncio.Task[None]] = {}
+        self._acts = set[asyncio.Task[None]]()
+        self._tries: dict[str, tuple[float, frozenset[str]]] = {}  # by laser: when it was tried last, for which causes
+        self._aside = Aside("pico guard tells")
 
     def start(self) -> None:
         """Begin to watch."""
@@ -98,6 +107,7 @@ class Guard:
             with suppress(RuntimeError):  # it has ended meanwhile
                 self._loop.call_soon_threadsafe(self._closing.set)
             self._thread.join(5.0)
+        self._aside.finish(WRITING)
 
     @property
     def lit(self) -> tuple[str, ...]:
@@ -123,14 +133,14 @@ class Guard:
         jobs += [self._ask(address, one.emitting) for address, one in own.emissions.items()]
         jobs += [self._ask(address, one.is_open) for address, one in own.shutters.items()]
         jobs += [self._ask(name, one.read, when_lit=True) for name, (_, one) in own.inputs.items()]
-        jobs += [self._refresh(one) for one in (*own.emissions.values(), *own.shutters.values())
-                 if isinstance(one, DeadMan)]  # fmt: skip
+        devices = {**own.emissions, **own.shutters}
+        jobs += [self._refresh(address, one) for address, one in devices.items() if isinstance(one, DeadMan)]
         tasks = [asyncio.create_task(job) for job in jobs]
         await self._closing.wait()
         for task in tasks:
             task.cancel()
-        if self._acting is not None:
-            await asyncio.wait([self._acting])
+        if left := [*self._acts, *self._halts.values()]:
+            await asyncio.wait(left)
 
     # asking
 
@@ -151,12 +161,14 @@ class Guard:
             self._judge()
             await asyncio.sleep(EVERY if self._lit else IDLE)
 
-    async def _refresh(self, one: DeadMan) -> None:
-        """Keep the dead-man of a device from closing it."""
+    async def _refresh(self, address: str, one: DeadMan) -> None:
+        """Keep the dead-man of a device from closing it while it may be on or open, whether or not light leaves the
+        laser: a head warms up and settles behind its closed shutter. What is being closed is not kept."""
         while True:
             if (within := one.dead_man) is None:
                 return
-            if self._lit:
+            known = self._hearing.heard.get(address)
+            if address not in self._closings and (known is None or known.value is not False):
                 with suppress(PicoError, TimeoutError, Exception):  # if it is not heard, it closes: as it should
                     await asyncio.wait_for(one.refresh(), ASKING)
             await asyncio.sleep(min(within / 4, EVERY * 2))
@@ -170,7 +182,7 @@ class Guard:
             now = self._wall(), time.time()
             pause = max(one - other for one, other in zip(now, last, strict=True))
             if self._lit and FROZE < pause < A_DAY:
-                self._told.froze(pause, self._lit)
+                self._aside.do(partial(self._told.froze, pause, self._lit))
             last = now
             self._judge()
 
@@ -193,36 +205,59 @@ class Guard:
             if not self._lit:
                 self._hearing.since = now  # safety inputs are asked from now on
             self._lit, self._judged = lit, True
-            self._told.lit(lit)
+            self._aside.do(partial(self._told.lit, lit))
         inputs = {name: self._hearing.input(name, entry, now) for name, (entry, _) in own.inputs.items()}
         trip = verdict(inputs, lasers, own.presence_ends)
-        if trip is None or self._acting is not None or (now - self._tried < AGAIN and _names(trip) == self._last):
+        if trip is None or not (due := self._due(trip, now)):
             return
-        self._tried, self._last = now, _names(trip)
-        self._acting = asyncio.create_task(self._act(trip))
+        self._tries |= {name: (now, _names(trip)) for name in due}
+        act = asyncio.create_task(self._act(replace(trip, lasers=due)))
+        self._acts.add(act)
+        act.add_done_callback(self._acts.discard)
+
+    def _due(self, trip: Trip, now: float) -> tuple[str, ...]:
+        """Return the lasers of a trip to which its causes are new, and those that have a device that is not being
+        closed, if they were not tried just now."""
+        causes, due = _names(trip), []
+        devices = {
+            light.laser: {*light.shutters, *((light.emission[0],) if light.emission else ())}
+            for light in self._watched.lights()
+        }
+        for name in trip.lasers:
+            at, known = self._tries.get(name, (float("-inf"), frozenset()))
+            if known != causes or (now - at >= AGAIN and devices[name] - self._closings.keys()):
+                due.append(name)
+        return tuple(due)
 
     async def _act(self, trip: Trip) -> None:
         """End the light of the lasers of a trip, stop arms that it stops, and tell it."""
-        try:
+        with suppress(Exception):  # whatever becomes of who hears it, light ends
             self._told.trips(trip)
-            own = self._watched
-            lights = [light for light in own.lights() if light.laser in trip.lasers]
-            spare = {
-                a: one for a, one in own.shutters.items() if not any(a in light.shutters for light in own.lights())
-            }
-            arms = own.arms() if trip.stops_arms else ()
-            others = [asyncio.create_task(_stopped(arm)) for arm in arms]
-            ends = await end_light(
-                [*lights, Light("", None, spare)],
-                lambda now: self._told.slow(trip, tuple(end for end in now if end.laser)),
-            )
-            await asyncio.gather(*others)
-            now = self._clock()
-            for closing in (closing for end in ends for closing in end.closings if closing.dark):
-                self._hearing.answered(closing.address, False, now)
-            await asyncio.to_thread(self._told.ended, trip, tuple(end for end in ends if end.laser))
-        finally:
-            self._acting = None
+        if trip.stops_arms:
+            self._halt()
+        own = self._watched
+        used = {address for light in own.lights() for address in light.shutters}
+        spare = {a: one for a, one in own.shutters.items() if a not in used}
+        ends = await end_light(
+            [*(light for light in own.lights() if light.laser in trip.lasers), Light("", None, spare)],
+            lambda now: self._aside.do(partial(self._told.slow, trip, _named(now))), self._closings,
+        )  # fmt: skip
+        now = self._clock()
+        for closing in (closing for end in ends for closing in end.closings if closing.dark):
+            self._hearing.answered(closing.address, False, now)
+        self._aside.do(partial(self._told.ended, trip, _named(ends)))
+
+    def _halt(self) -> None:
+        """Have the arms in motion stop; nothing waits for them."""
+        for arm in self._watched.arms():
+            key = id(arm)
+            if key not in self._halts:
+                task = self._halts[key] = asyncio.create_task(_stopped(arm))
+                task.add_done_callback(lambda _, key=key: self._halts.pop(key, None))  # type: ignore[misc]
+
+
+def _named(ends: tuple[LightEnd, ...]) -> tuple[LightEnd, ...]:
+    return tuple(end for end in ends if end.laser)
 
 
 def _names(trip: Trip) -> frozenset[str]:
@@ -230,5 +265,5 @@ def _names(trip: Trip) -> frozenset[str]:
 
 
 async def _stopped(arm: Arm) -> None:
-    with suppress(PicoError):  # the session says what became of it
-        await arm.stop()
+    with suppress(Exception):  # the session says what became of it
+        await asyncio.wait_for(arm.stop(), HALTING)
