@@ -114,7 +114,22 @@ def test_one_relay_is_of_one_device_and_contacts_may_be_read_by_several() -> Non
     assert wrong(HEAD + box) == []
     lamp = box[: box.index("  shut_sensor")].replace("shut:", "lamp:").replace("scpi.shutter", "scpi.lamp")
     lamp = lamp.replace(", channel: 3", "") + "    map: {emission: {property: on}}\n"
-    assert "relay 1, where shut is" in only(HEAD + box + lamp)[1]
+    assert any("relay 1, where shut is" in said for _, said, _ in wrong(HEAD + box + lamp))
+
+
+def test_a_laser_is_not_switched_as_a_lamp() -> None:
+    text = HEAD + BOX[BOX.index("  laser_box") :].replace("switches.laser", "switches.lamp")
+    at, said, hint = only(text + "    map: {emission: {property: on}}\n")
+    assert said == "laser.emission lets light out, and the guard of light can't end it through a lamp"
+    assert at.startswith("devices.yaml:10:") and "`scpi.laser`, `switches.laser`" in hint
+
+
+def test_a_lamp_may_be_a_source_of_class_1() -> None:
+    lab = LAB["lab.yaml"].replace(b"type: hene_laser_expanded", b"type: white_light_source")
+    text = HEAD + BOX[BOX.index("  laser_box") :].replace("switches.laser", "switches.lamp")
+    text += "    map: {emission: {property: on}}\n"
+    found = load_files({"lab.yaml": lab, "devices.yaml": text.encode()}).diagnostics
+    assert lab != LAB["lab.yaml"] and not [d for d in found if "lets light out" in d.summary]
 
 
 def test_a_serial_number_is_of_one_device() -> None:
