@@ -63,7 +63,7 @@ class LocalEdge(Edge):
         clock: Callable[[], str] = clock_now,
     ) -> None:  # fmt: skip
         self._kept, self.lock = KeptLab(place, lab, clock), BenchLock(place, clock)
-        self.apparatus = Apparatus(setup, place, opening, clock)
+        self.apparatus = Apparatus(setup, place, opening, clock, lab.as_bytes() if lab is not None else None)
         self.sight = Sight(self.apparatus)
         self.licensing = Licensing(self.apparatus, self.sight, self)
         self.custody = Custody(self.apparatus, self.sight, self.licensing, self.lock, self._kept)
@@ -135,7 +135,7 @@ class LocalEdge(Edge):
             self._kept.keep(lab, holder)
         finally:
             await self.custody.leave()
-        self.apparatus.become(setup)
+        self.apparatus.become(setup, lab.as_bytes())
 
     async def _require_hands(self, setup: Setup) -> None:
         for name, robot in (await self.observe()).robots.items():
