@@ -49,7 +49,9 @@ class Done:
 def add_input(place: BenchPlace) -> None:
     path = place.root / "devices.yaml"
     text = path.read_text().replace("\ndevices:\n", f"\ndevices:{ADDED}", 1)
-    path.write_text(text.replace("\nsafety_inputs:\n", "\nsafety_inputs:\n  added: {kind: door, device: added_box}\n", 1))
+    path.write_text(
+        text.replace("\nsafety_inputs:\n", "\nsafety_inputs:\n  added: {kind: door, device: added_box}\n", 1)
+    )
 
 
 def test_an_edge_asks_an_input_that_was_added_since_the_lab_was_adopted(place: BenchPlace) -> None:
@@ -65,7 +67,9 @@ def test_an_edge_asks_an_input_that_was_added_since_the_lab_was_adopted(place: B
 def test_commands_go_by_the_wiring_of_the_files_while_another_lab_is_proposed(place: BenchPlace) -> None:
     add_input(place)
     path = place.root / "lab.yaml"
-    path.write_text(path.read_text() + "keep_out:\n  pillar: {area: {x: [500, 540], y: [400, 440]}, reason: a pillar}\n")
+    path.write_text(
+        path.read_text() + "keep_out:\n  pillar: {area: {x: [500, 540], y: [400, 440]}, reason: a pillar}\n"
+    )
     with Bench.open(place.root, bench=place) as bench:
         assert not bench.setup.lab.keep_out and bench.setup.wiring is not None
         assert "added" in bench.setup.wiring.safety_inputs

@@ -15,8 +15,9 @@ from laser_lab import bench
 from pico.backends.device import Capabilities
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.backends.hardware.guard.note import Ended
-from pico.base.state_files import JOURNAL
+from pico.base.state_files import JOURNAL, LOCK
 from pico.edge.guard.journaling import record_ended
+from pico.edge.local import LocalEdge
 from pico.runs.journal import Journal
 
 SETUP = bench()
@@ -64,3 +65,12 @@ def test_it_is_written_from_any_loop_that_runs(tmp_path: Path) -> None:
     asyncio.run(within())
     with closing(Journal(path)) as journal:
         assert [(run.holder, run.outcome) for run in journal.runs()] == [("a stop", "done")]
+
+
+def test_light_that_ended_is_told_as_such_if_the_lock_is_no_file(tmp_path: Path) -> None:
+    place = bench_at(tmp_path)
+    LOCK.path(place.folder).mkdir(parents=True)
+    edge = LocalEdge(SETUP, place, lambda setup: DEVICE)
+    edge._light_ended(
+        Ended(at="2026-11-24T12:00:00Z", why="a person stopped the bench", ends=ENDS[:1], by="a stop"), None
+    )
