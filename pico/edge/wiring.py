@@ -1,5 +1,5 @@
-"""How a real bench is wired: by the files of its folder, as they are when its edge starts. It is no part of the Lab that
-a bench keeps, so that an instrument or a safety input that is added counts at once; and an edge that has been at work
+"""How a real bench is wired: by the files of its folder, as they are when its edge starts. It is no part of the Lab
+that a bench keeps, so that a safety input that is added counts at once; and an edge that has been at work
 since before lets no more light out."""
 
 from __future__ import annotations
