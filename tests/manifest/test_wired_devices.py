@@ -224,3 +224,15 @@ def test_a_kind_whose_usual_tunable_the_part_lacks_needs_a_map() -> None:
     at, said, hint = only(HEAD + BOX[: BOX.index("  laser_box")].replace("of: laser", "of: p1"))
     assert said == "p1 has no `shutter`, which a shutter is if the lab has no `map`"
     assert at.startswith("devices.yaml:7:") and "map: {NAME: {property: open}}" in hint
+
+
+def test_a_heartbeat_is_no_longer_than_a_lost_link_may_keep_light_on() -> None:
+    box = BOX[BOX.index("  laser_box") :].replace("laser_box", "door_box").replace("switches.laser", "switches.input")
+    text = (
+        HEAD
+        + box.replace("    of: laser\n", "")
+        + "safety_inputs:\n  door: {kind: door, device: door_box, heartbeat: %s}\n"
+    )
+    assert wrong(text % "1.0") == []
+    at, said, _ = only(text % "1.5")
+    assert "the `heartbeat` of door is 1.5 s" in said and at.startswith("devices.yaml:10:")

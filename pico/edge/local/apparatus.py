@@ -7,8 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.backends.device import Capabilities, Device, LightGuarded
+from pico.edge.guard.wiring import BenchWiring
 from pico.edge.remembering import Remembering
-from pico.edge.wiring import BenchWiring
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
 

@@ -20,7 +20,7 @@ from pico.model.commissioning import basis_of
 from pico.model.operation import Operation, OperationResult
 from pico.places.bench import BenchPlace
 
-DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
+DEVICES = Path(__file__).resolve().parents[3] / "examples" / "devices.yaml"
 NOON = "2026-11-24T12:00:00Z"
 ADDED = """
   added_box:
