@@ -99,7 +99,7 @@ def disarm(context: typer.Context, laser: Name, fidelity: Fidelity = None) -> in
     Examples:
       pico laser disarm laser
     """
-    from pico.places.record import lenient
+    from pico.places.lab import lenient
 
     session = Session.of(context)
     context.with_resource(lenient())

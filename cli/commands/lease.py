@@ -122,7 +122,7 @@ def lock(
       pico lease lock --reason "mirrors are being cleaned"
     """
     from pico.edge.guard.table_lock import lock
-    from pico.places.record import lenient
+    from pico.places.lab import lenient
 
     session = Session.of(context)
     context.with_resource(lenient())

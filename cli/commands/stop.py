@@ -31,21 +31,27 @@ def stop(context: typer.Context, now: Now = False) -> int:
       pico stop --bench shel/bench1
     """
     from pico.bench.running.stopping import end_light, moved_elsewhere, stop
-    from pico.places.record import lenient
+    from pico.places.lab import lenient
 
     session = Session.of(context)
     context.with_resource(lenient())
     place = session.place(session.root(safety=True), safety=True)
     ended, wrong = None, list[Diagnostic]()
+    failed: PicoError | None = None
     for work in ("light", "motion", "light") if now else ("motion",):  # a run may let light out until it has stopped
         if work == "motion":
-            stopped = stop(place, now=now)
+            try:
+                stopped = stop(place, now=now)
+            except PicoError as exc:  # light is ended all the same
+                failed = exc
             continue
         try:
             ended = end_light(place)
             wrong = []
         except PicoError as exc:
             wrong = list(exc.diagnostics)
+    if failed is not None:
+        raise PicoError([*failed.diagnostics, *wrong], failed.exit_code)
     others = () if stopped[0] else moved_elsewhere(place)
     session.show(view, *stopped, bench=place.title, others=others, now=now, light=ended)
     if wrong:

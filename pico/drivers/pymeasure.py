@@ -13,7 +13,16 @@ from pico.drivers.driver import Driver
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
 from pico.drivers.scpi import METER_SETTINGS, corrected, metered, require_told
-from pico.drivers.visa import ADDRESS, backend_of, complaints, queue_of, resource_options, wire_of, within_of
+from pico.drivers.visa import (
+    ADDRESS,
+    ask_if_known,
+    backend_of,
+    complaints,
+    queue_of,
+    resource_options,
+    wire_of,
+    within_of,
+)
 from pico.model.instruments.readout import Readout
 from pico.model.wiring import DeviceEntry
 
@@ -34,6 +43,10 @@ class _Link:
         """Return the reply to a question; what came before it is none."""
         self.meter.adapter.flush_read_buffer()
         return str(self.meter.ask(question)).strip()
+
+    def ask_if_known(self, question: str) -> str | None:
+        """Return the reply to a question, None if the instrument does not know it."""
+        return ask_if_known(self.meter.adapter.connection, self.ask, question)
 
     def tell(self, command: str) -> None:
         """Send a command that has no reply."""

@@ -88,6 +88,8 @@ class Questions(Protocol):
 
     def ask(self, question: str) -> str: ...
 
+    def ask_if_known(self, question: str) -> str | None: ...
+
     def tell(self, command: str) -> None: ...
 
     def failure(self, *, after_reply: bool = False) -> str: ...
@@ -102,13 +104,40 @@ def metered(link: Questions, entry: DeviceEntry, wavelength: float | None) -> Re
         if found.value is None:
             return unknown("W", "wavelength", found.raw, f"its wavelength can't be read: {found.why}")
         settings["wavelength"] = found.value
+    if (said := _not_in_watts(link, entry)) is not None:
+        text = f"the meter is to read in W, and says of its unit: {said[:20]!r}"
+        return unknown("W", "garbled", said, text)
     raw = link.ask("MEAS:POW?")
     try:
         queued = link.failure(after_reply=True) if entry.settings.get("error_queue", True) else ""
     except ValueError as exc:
         return unknown("W", "garbled", raw, f"its error queue can't be read: {exc}")
     found = judging.number(raw, "W", limits=entry.limits.get("power"), failure=queued)
+    if found.number is not None and found.number < -NOISE:
+        text = f"a power of {found.number:g} W is below the noise of a meter: adjust its zero, and set it to W"
+        found = unknown("W", "under-range", raw, text)
     return replace(found, settings=settings)
+
+
+NOISE = 1e-4
+"""What a meter may read below zero in the dark [W]."""
+_UNIT = "SENS:POW:UNIT"
+
+
+def _not_in_watts(link: Questions, entry: DeviceEntry) -> str | None:
+    """Set a meter that was set to dBm to W, and return what it says of its unit then; None if that is W, as it is of a
+    meter that does not know the question."""
+    if not entry.settings.get("power_unit", True):
+        return None
+    said = link.ask_if_known(f"{_UNIT}?")
+    if said is None:
+        if entry.settings.get("error_queue", True):
+            link.failure()  # it notes that it does not know it, which is no error of the reading
+        return None
+    if said.strip().upper() == "DBM":
+        link.tell(f"{_UNIT} W")
+        said = link.ask(f"{_UNIT}?")
+    return None if said.strip().upper() == "W" else said
 
 
 def corrected(link: Questions, entry: DeviceEntry, wavelength: float) -> Readout:
@@ -235,6 +264,7 @@ _CONTACTS = {
 METER_SETTINGS = {
     **SETTINGS,
     "wavelength": Setting(kind=bool, default=True, about="whether it knows `SENS:CORR:WAV`, to be told the light's"),
+    "power_unit": Setting(kind=bool, default=True, about="whether it knows `SENS:POW:UNIT?`, to be set to W"),
     "error_queue": Setting(kind=bool, default=True, about="whether it knows `SYST:ERR?`, asked after each reading"),
 }
 METER = Driver(

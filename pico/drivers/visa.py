@@ -103,6 +103,27 @@ def queue_of(ask: Callable[[str], str], first_ask: Callable[[str], str] | None =
     return first
 
 
+def ask_if_known(resource: Any, ask: Callable[[str], str], question: str) -> str | None:
+    """Return the reply of a PyVISA resource to a question that it may not know, None if it does not answer in time;
+    what it answers later is no answer to another question, since that has another form. Raises what PyVISA raises."""
+    from pyvisa.constants import StatusCode
+    from pyvisa.errors import VisaIOError
+
+    before, resource.timeout = resource.timeout, PATIENCE
+    try:
+        return ask(question)
+    except VisaIOError as exc:
+        if exc.error_code != StatusCode.error_timeout:
+            raise
+        return None
+    finally:
+        resource.timeout = before
+
+
+PATIENCE = 500.0
+"""How long an answer is waited for to a question that an instrument may not know [ms]."""
+
+
 class Visa:
     """An open VISA resource: one line out, one line back. What came before a question is no answer to it."""
 
@@ -118,6 +139,10 @@ class Visa:
 
         self.resource.flush(BufferOperation.discard_read_buffer)
         return str(self.resource.query(question)).strip()
+
+    def ask_if_known(self, question: str) -> str | None:
+        """Return the reply to a question, None if the instrument does not know it; raises what PyVISA raises."""
+        return ask_if_known(self.resource, self.ask, question)
 
     def tell(self, command: str) -> None:
         """Send a command that has no reply."""

@@ -39,10 +39,11 @@ class Guarded:
     def __init__(
         self, setup: Setup, inner: Executing, look: Looking, bare: Callable[[], bool],
         most: Callable[[], LaserClass | None], refused_by: Callable[[], Diagnostic | None] = lambda: None,
+        kept_in: Callable[[], Diagnostic | None] = lambda: None,
     ) -> None:  # fmt: skip
-        """`refused_by`: why nothing but ending light is let through now."""
+        """`refused_by`: why nothing but ending light is let through now; `kept_in`: why no light is let out."""
         self._setup, self._inner, self._look, self._bare, self._most = setup, inner, look, bare, most
-        self._refused_by = refused_by
+        self._refused_by, self._kept_in = refused_by, kept_in
 
     async def execute(self, operation: Operation, key: str, began: Began) -> OperationResult:
         """Execute an operation; one that lets light out and must not fails, and nothing moves."""
@@ -50,6 +51,8 @@ class Guarded:
             return OperationResult(key=key, outcome="failed", error=why)
         if not (lets_out(self._setup, operation) or uncovers(self._setup, operation)):
             return await self._inner.execute(operation, key, began)
+        if (why := self._kept_in()) is not None:
+            return OperationResult(key=key, outcome="failed", error=why)
         seen = await self._look()
         wrong: Sequence[Diagnostic] = refused(self._setup, seen, [operation])
         if not wrong and (most := self._most()) is not None:

@@ -5,6 +5,7 @@ A line a command, ending in a line feed; several in a line are parted by `;`. Wh
 
 from __future__ import annotations
 
+import math
 import random
 import re
 from collections.abc import Callable, Mapping
@@ -70,12 +71,16 @@ class Meter:
 
     def __init__(self, behind: Behind) -> None:
         self._behind, self._wavelength, self._drawn = behind, 635.0, random.Random(1)
+        self._unit = "W"
 
     def answer(self, command: str, argument: str) -> str | None:
         if command in ("MEAS:POW?", "READ?"):
             noise = self._behind.read("noise")
             noise = self._drawn.gauss(0.0, NOISE) if noise is None else noise
-            return f"{float(self._behind.read('power') or 0.0) * (1 + noise):.9E}"
+            watts = float(self._behind.read("power") or 0.0) * (1 + noise)
+            return f"{watts if self._unit == 'W' else 10 * math.log10(max(watts, 1e-12) / 1e-3):.9E}"
+        if command.startswith("SENS:POW:UNIT"):
+            return self._in_unit(argument if command == "SENS:POW:UNIT" else "")
         if command == "SENS:CORR:WAV?":
             return f"{ {'MIN': self.LEAST, 'MAX': self.GREATEST}.get(argument, self._wavelength):.3f}"
         if command == "SENS:CORR:WAV":
@@ -85,6 +90,13 @@ class Meter:
             self._behind.write("wavelength", self._wavelength)
             return ""
         return "S130C,SN 1104,,1,1,33" if command == "SYST:SENS:IDN?" else None
+
+    def _in_unit(self, wanted: str) -> str:
+        """Return the unit of a power, or read in the one that is wanted from now on."""
+        if not wanted:
+            return self._unit
+        self._unit = "DBM" if wanted.upper() == "DBM" else "W"
+        return ""
 
 
 class Laser:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import os
 import shlex
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +16,7 @@ FOLDER = ".pico"
 BENCHES = "benches"
 """The folder in `.pico` that holds a folder for each bench."""
 IGNORE = ".gitignore"
+_lenient: list[None] = []
 _REPAIR = "`git status` says what is wrong; delete `.git` only if no repository belongs here"
 
 
@@ -80,6 +82,23 @@ def _text(path: Path) -> str:
     return path.read_text(encoding="utf-8", errors="surrogateescape")
 
 
+@contextmanager
+def lenient() -> Iterator[None]:
+    """Refuse no symbolic links in `.pico` meanwhile, and take a record of benches that can't be read for an empty one,
+    which is never written: for commands that only make a bench safer. The worktree where they are called then counts as
+    that of the bench, or the main one if it used it."""
+    _lenient.append(None)
+    try:
+        yield
+    finally:
+        _lenient.pop()
+
+
+def is_lenient() -> bool:
+    """Return whether somebody makes a bench safer, see `lenient`."""
+    return bool(_lenient)
+
+
 def own_folder(root: Path) -> Path:
     """Return what PICO keeps beside the manifests in `root`; raises PicoError for a link in it.
 
@@ -116,8 +135,8 @@ def _ignore(folder: Path) -> None:
 
 def refuse_links(folder: Path) -> frozenset[str]:
     """Return the names in a folder, none if there is no such folder. Raises PicoError if it, or what lies directly in
-    it, is a symbolic link."""
-    if folder.is_symlink():
+    it, is a symbolic link, but while `lenient`: light is ended however the folder looks."""
+    if folder.is_symlink() and not _lenient:
         raise PicoError(_link(folder))
     try:
         with os.scandir(folder) as found:
@@ -125,7 +144,7 @@ def refuse_links(folder: Path) -> frozenset[str]:
     except OSError:
         return frozenset()
     for entry in entries:
-        if entry.is_symlink():
+        if entry.is_symlink() and not _lenient:
             raise PicoError(_link(Path(entry.path)))
     return frozenset(entry.name for entry in entries)
 

@@ -15,9 +15,8 @@ from pathlib import Path
 
 from pico.base.state_files import RECORD, RECORD_LOCK
 from pico.diagnostics import PicoError
-from pico.places.lab import BENCHES, FOLDER, LabPlace, lab_place
+from pico.places.lab import BENCHES, FOLDER, LabPlace, is_lenient, lab_place
 
-_lenient: list[None] = []
 SHARED = ""
 """The name below which a record that an earlier PICO wrote stands: all benches of a lab were in one folder then."""
 Record = dict[str, dict[str, str]]
@@ -63,27 +62,15 @@ def note(place: LabPlace, record: Record, name: str) -> None:
 
 
 @contextmanager
-def lenient() -> Iterator[None]:
-    """Take a record that can't be read for an empty one meanwhile, which is never written: for commands that only make
-    a bench safer. The worktree where they are called then counts as that of the bench, or the main one if it used it.
-    """
-    _lenient.append(None)
-    try:
-        yield
-    finally:
-        _lenient.pop()
-
-
-@contextmanager
 def recording(place: LabPlace) -> Iterator[Record]:
     """Read the record, and write it if it was changed; no other process does so meanwhile. Raises PicoError."""
     path = place.record
     try:
         lock = RECORD_LOCK.lock(path.with_suffix(".lock"))
-        if _lenient:
+        if is_lenient():
             _read(place)
     except PicoError:
-        if not _lenient:
+        if not is_lenient():
             raise
         yield deepcopy(read_record(place))
         return
@@ -103,7 +90,7 @@ def read_record(place: LabPlace) -> Record:
     try:
         return _read(place)
     except PicoError:
-        if not _lenient:
+        if not is_lenient():
             raise
         return {}
 

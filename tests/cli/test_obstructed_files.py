@@ -117,6 +117,23 @@ def test_what_is_no_file_is_named_with_what_moves_it_away_and_keeps_no_light_on(
     assert path.name == TABLE or pico("laser", "disarm", "laser").code == 0
 
 
+@pytest.mark.parametrize("name", [
+    "old", "choice.json", "benches/old", "benches/sim/seen.json", "benches/sim/table-lock.json", "benches/sim/more",
+    *(f"benches/sim/{name}" for name in OF_BENCH if "/" not in name and name != TABLE),
+])  # fmt: skip
+def test_no_symbolic_link_keeps_light_on_and_nothing_is_written_through_it(lit: Path, pico: Pico, name: str) -> None:
+    beyond, path = lit.parent / "beyond", lit / ".pico" / name
+    beyond.write_text("as it was")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.unlink(missing_ok=True)
+    path.symlink_to(beyond)
+    moved = pico("set", "p1", "angle=4", "--yes")
+    assert moved.code != 0 and "symlink" in moved.err and emits(lit), moved
+    stopped, shut = pico("stop", "--now"), pico("laser", "disarm", "laser")
+    assert stopped.code == 0 and not emits(lit), (stopped, shut)
+    assert "symlink" not in shut.err and beyond.read_text() == "as it was", shut
+
+
 @pytest.mark.parametrize(
     "name", [".git/pico/bench.json", ".git/pico/remotes.json", ".pico/benches/sim/table-lock.json"]
 )

@@ -313,6 +313,28 @@ def test_an_earlier_answer_of_a_contact_is_none(kind: str) -> None:
     assert closed == (wanted if kind == "scpi.safety" else [None if c is None else not c for c in wanted])
 
 
+class Unit(Scripted):
+    """A meter that was set to dBm, and can be set to W; one that does not know the question, if it is `plain`."""
+
+    def __init__(self, plain: bool) -> None:
+        self._plain = plain
+        known = {**METER, "SYST:SENSOR:IDN?": "S130C,SN 1104,,1,1,33"}
+        super().__init__({**known, **({} if plain else {"SENS:POW:UNIT?": "DBM", "MEAS:POW?": "7.918125E-01"})})
+
+    def heard(self, data: bytes) -> bytes:
+        if b"SENS:POW:UNIT W" in data and not self._plain:
+            self.replies.update({"SENS:POW:UNIT?": "W", "MEAS:POW?": "1.2E-3"})
+        return super().heard(data)
+
+
+@pytest.mark.parametrize("driver", ["scpi.meter", "pymeasure.pm100"])
+@pytest.mark.parametrize("plain", [False, True])
+def test_a_power_is_in_watts_whatever_the_meter_was_set_to(driver: str, plain: bool) -> None:
+    with scripted(Unit(plain)) as address:
+        found = asked(DeviceEntry(driver=driver, address=address), lambda one: one.power())
+    assert (found.value, found.unit) == (0.0012, "W"), found
+
+
 @pytest.mark.parametrize(("reply", "value"), [
     ("0.0012\n0", None), ("1.0E-1\n0", None), ("0.0012\n394", None), ("0.0012", 0.0012), ("0.0012\n", 0.0012),
     ("0.0012\n\r", 0.0012),

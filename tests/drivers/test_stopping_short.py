@@ -631,6 +631,7 @@ def test_a_meter_is_set_to_a_wavelength_and_says_which_it_reads_back(
     ({"MEAS:POW?": "-9.9E+37"}, "under-range"), ({"MEAS:POW?": "0.0012 W"}, "garbled"), ({"MEAS:POW?": ""}, "garbled"),
     ({"SYST:ERR?": '-230,"Data corrupt"'}, "instrument-error"), ({"SYST:ERR?": "what"}, "garbled"),
     ({"SENS:CORR:WAV?": "9.91E37"}, "wavelength"), ({"MEAS:POW?": "0.3"}, "out-of-limits"),
+    ({"SENS:POW:UNIT?": "DBM"}, "garbled"), ({"SENS:POW:UNIT?": "mW"}, "garbled"), ({"SENS:POW:UNIT?": ""}, "garbled"),
 ])  # fmt: skip
 def test_a_reply_that_is_no_reading_is_unknown_with_its_reason(replies: dict[str, str], code: str) -> None:
     found = asked(lambda one: one.power(wavelength=633.0), *meter(Metered(replies), {"power": (0.0, 0.2)}))
@@ -646,9 +647,18 @@ def test_an_error_of_a_refused_wavelength_is_no_error_of_the_reading() -> None:
 def test_a_plain_meter_is_not_asked_what_it_does_not_know() -> None:
     link = Metered()
     found = asked(
-        lambda one: one.power(wavelength=1550.0), *meter(link, settings={"wavelength": False, "error_queue": False})
+        lambda one: one.power(wavelength=1550.0),
+        *meter(link, settings={"wavelength": False, "power_unit": False, "error_queue": False}),
     )
     assert (found.value, found.settings, link.sent, link.asked[1:]) == (0.0012, {}, [], ["MEAS:POW?"])
+
+
+@pytest.mark.parametrize(("said", "unknown"), [
+    ("-3.01", "under-range"), ("-2E-4", "under-range"), ("-1E-9", None), ("0", None),
+])  # fmt: skip
+def test_a_negative_power_beyond_noise_is_unknown(said: str, unknown: str | None) -> None:
+    found = asked(lambda one: one.power(), *meter(Metered({"MEAS:POW?": said}), settings={"power_unit": False}))
+    assert found.unknown == unknown and found.value == (None if unknown else float(said))
 
 
 @dataclass
@@ -667,12 +677,15 @@ class Metered:
         self.asked.append(question)
         if question == "SYST:ERR?" and self.errors:
             return self.errors.pop(0)
-        usual = {"MEAS:POW?": "1.2E-3", "SYST:ERR?": '0,"No error"', "SENS:CORR:WAV?": "633.0"}
+        usual = {"MEAS:POW?": "1.2E-3", "SYST:ERR?": '0,"No error"', "SENS:CORR:WAV?": "633.0", "SENS:POW:UNIT?": "W"}
         usual["*IDN?"] = "Acme,M1,S42,1.2"
         reply = self.replies.get(question, usual[question])
         if question == "SYST:ERR?":
             self.replies.pop(question, None)
         return reply
+
+    def ask_if_known(self, question: str) -> str:
+        return self.ask(question)
 
     def failure(self, *, after_reply: bool = False) -> str:
         return visa.queue_of(self.ask)

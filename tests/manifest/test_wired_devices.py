@@ -114,7 +114,22 @@ def test_one_relay_is_of_one_device_and_contacts_may_be_read_by_several() -> Non
     assert wrong(HEAD + box) == []
     lamp = box[: box.index("  shut_sensor")].replace("shut:", "lamp:").replace("scpi.shutter", "scpi.lamp")
     lamp = lamp.replace(", channel: 3", "") + "    map: {emission: {property: on}}\n"
-    assert "relay 1, where shut is" in only(HEAD + box + lamp)[1]
+    assert any("relay 1, where shut is" in said for _, said, _ in wrong(HEAD + box + lamp))
+
+
+def test_a_laser_is_not_switched_as_a_lamp() -> None:
+    text = HEAD + BOX[BOX.index("  laser_box") :].replace("switches.laser", "switches.lamp")
+    at, said, hint = only(text + "    map: {emission: {property: on}}\n")
+    assert said == "laser.emission lets light out, and the guard of light can't end it through a lamp"
+    assert at.startswith("devices.yaml:10:") and "`scpi.laser`, `switches.laser`" in hint
+
+
+def test_a_lamp_may_be_a_source_of_class_1() -> None:
+    lab = LAB["lab.yaml"].replace(b"type: hene_laser_expanded", b"type: white_light_source")
+    text = HEAD + BOX[BOX.index("  laser_box") :].replace("switches.laser", "switches.lamp")
+    text += "    map: {emission: {property: on}}\n"
+    found = load_files({"lab.yaml": lab, "devices.yaml": text.encode()}).diagnostics
+    assert lab != LAB["lab.yaml"] and not [d for d in found if "lets light out" in d.summary]
 
 
 def test_a_serial_number_is_of_one_device() -> None:
@@ -209,3 +224,15 @@ def test_a_kind_whose_usual_tunable_the_part_lacks_needs_a_map() -> None:
     at, said, hint = only(HEAD + BOX[: BOX.index("  laser_box")].replace("of: laser", "of: p1"))
     assert said == "p1 has no `shutter`, which a shutter is if the lab has no `map`"
     assert at.startswith("devices.yaml:7:") and "map: {NAME: {property: open}}" in hint
+
+
+def test_a_heartbeat_is_no_longer_than_a_lost_link_may_keep_light_on() -> None:
+    box = BOX[BOX.index("  laser_box") :].replace("laser_box", "door_box").replace("switches.laser", "switches.input")
+    text = (
+        HEAD
+        + box.replace("    of: laser\n", "")
+        + "safety_inputs:\n  door: {kind: door, device: door_box, heartbeat: %s}\n"
+    )
+    assert wrong(text % "1.0") == []
+    at, said, _ = only(text % "1.5")
+    assert "the `heartbeat` of door is 1.5 s" in said and at.startswith("devices.yaml:10:")

@@ -103,6 +103,8 @@ class _Idle:
         lit = isinstance(device, LightGuarded) and device.may_emit()
         if attached or lit or self._edge.moving() or self._edge.lease is not None:
             self._since = time.monotonic()
+        elif self._edge.apparatus.wiring.refusal() is not None:
+            return True  # the next command starts one with the instruments that there are now
         return time.monotonic() - self._since > IDLE
 
 

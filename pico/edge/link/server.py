@@ -11,7 +11,7 @@ import gc
 import os
 import signal
 from collections.abc import AsyncIterator, Callable, Coroutine
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from typing import Any
 
 from pico.backends.devices import HARDWARE
@@ -24,6 +24,7 @@ from pico.edge.link import place, wire
 from pico.edge.link.answering import Answering, Taken
 from pico.edge.local import LocalEdge, embedded
 from pico.places.bench import BenchPlace
+from pico.places.lab import lenient
 
 FAREWELL = 2.0
 """Seconds in which those who follow a run may ask what became of it, once the edge is to end."""
@@ -33,6 +34,8 @@ SAFER = frozenset({"disarm"})
 """Calls that only make the bench safer: whoever grants the bench, they are answered here, too."""
 READING = frozenset({"events", "report", "film", "describe", "holder", "observe", "unended", "lab", "array"})
 """Calls that are answered until then."""
+DARKENING = SAFER | READING | {"armings", "end_light", "halt", "stop"}
+"""Calls by which light is ended, and is seen to be: no symbolic link in `.pico` keeps an edge from them."""
 
 
 class Server:
@@ -125,8 +128,9 @@ class Server:
         except PicoError as exc:
             yield wire.failure(exc)
             return
-        async for document in self._answering.answers(name, arguments, taken):
-            yield document
+        with lenient() if name in DARKENING else nullcontext():
+            async for document in self._answering.answers(name, arguments, taken):
+                yield document
 
 
 async def serve(

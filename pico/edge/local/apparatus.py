@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from pico.backends.device import Capabilities, Device, LightGuarded
+from pico.edge.guard.wiring import BenchWiring
 from pico.edge.remembering import Remembering
 from pico.model.setup import Setup
 from pico.places.bench import BenchPlace
@@ -17,15 +18,19 @@ if TYPE_CHECKING:
 
 
 class Apparatus:
-    """The bench at `place`. `opening` opens the device of a setup; `clock` gives the wall time as ISO 8601, UTC."""
+    """The bench at `place`. `opening` opens the device of a setup; `clock` gives the wall time as ISO 8601, UTC;
+    `files`: what `setup` was read from, None on trial. How it is wired the folder's files say."""
 
     def __init__(
-        self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], clock: Callable[[], str]
-    ) -> None:
+        self, setup: Setup, place: BenchPlace, opening: Callable[[Setup], Device], clock: Callable[[], str],
+        files: Mapping[str, bytes] | None = None,
+    ) -> None:  # fmt: skip
         self.place, self._opening = place, opening
         self._heard: Callable[[Ended, Trip | None], None] | None = None
         self._disarm: Callable[[str], tuple[str, ...]] | None = None
-        self.setup, self.device = setup, self._opened(setup)
+        self.wiring = BenchWiring(place)
+        self.setup = self.wiring.wired(setup, files)
+        self.device = self._opened(self.setup)
         self.now, self.journals = clock, Remembering(place, clock)
         self._usual: tuple[Setup, Device] | None = None
 
@@ -63,8 +68,9 @@ class Apparatus:
             primitives = primitives - STEPS | {"teleoperate"}
         return replace(able, primitives=primitives, kept=self.device.kept())
 
-    def become(self, setup: Setup) -> None:
-        """Work on another bench from now on: the Lab was changed."""
+    def become(self, setup: Setup, files: Mapping[str, bytes]) -> None:
+        """Work on another bench from now on: the Lab was changed to `files`."""
+        setup = self.wiring.wired(setup, files)
         self.setup, self.device = setup, self._opened(setup)
 
     def go_at(self, speed: float | None) -> None:

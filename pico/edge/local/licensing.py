@@ -66,6 +66,8 @@ class Licensing:
         own = self._apparatus
         require_attached(own.place)
         require(own.place)
+        if (why := own.wiring.refusal()) is not None:
+            raise PicoError(why, ExitCode.DENIED)
         given = replace(arming, backend=(await own.device.describe()).name)
         if wrong := refusal(own.setup, given, own.now()):
             raise PicoError(wrong, ExitCode.DENIED)
@@ -179,7 +181,7 @@ class Licensing:
         from pico.edge.emission import Guarded
 
         own, observe = self._apparatus, self._sight.observe
-        guarded = Guarded(own.setup, inner, observe, bare, self.alone.most, self._refused)
+        guarded = Guarded(own.setup, inner, observe, bare, self.alone.most, self._refused, own.wiring.refusal)
         if not own.has_samples:
             return guarded
         from pico.edge.dose import Dosing

@@ -160,6 +160,8 @@ class LabFolder:
         if whole.setup and whole.setup.same_as(own):
             return whole
         wrong = load_files(bench_files(files), root=shown).diagnostics
+        if whole.setup is not None and whole.setup.wiring is not None:  # how it is wired needs no adopting
+            own = replace(own, wiring=whole.setup.wiring)
         read = load_files(files, found, setup=own)
         told = [d for d in wrong if d.code != "no-state" and d not in read.diagnostics]
         hinted = [_to_adopt(d, self.described) for d in read.diagnostics if not _said_of_its_part(d, whole)]

@@ -90,9 +90,11 @@ def _mapped(
             hint=f"map a tunable of datatype {' or '.join(takes)}" if takes else "leave `map` out",
             source=at,
         )
-    elif tunable is not None and key in ("shutter", "emission") and about.kind not in _ENDS_LIGHT:
+    elif tunable is not None and (ends := _ends_light(setup, owner, key)) and about.kind not in ends:
         text = f"{owner}.{key} lets light out, and the guard of light can't end it through {_with_article(about.kind)}"
-        yield error("value", text, hint="choose a driver of the kind `shutter` or `laser`", source=at)
+        fit = [f"`{n}`" for n in sorted(entries("pico.drivers")) if (d := declaration(n)[0]) and d.kind == ends[0]]
+        hint = f"choose a driver of the kind `{ends[0]}`: {', '.join(fit)}"
+        yield error("value", text, hint=hint, source=at)
     elif tunable is not None and not about.writable(entry, wired.property) and tunable.restore.kind != "none":
         text = f"{owner}.{key} is set, and `{wired.property}` of {name} is only read"
         hint = "`set:` in its settings says how it is set; a value that is only read is a measurable of its type"
@@ -107,8 +109,16 @@ def _is_for(about: Declaration, kind: str, robot: Robot) -> bool:
     return about.kind == kind and about.robot in ("", robot.model)
 
 
-_ENDS_LIGHT = ("shutter", "laser", "lamp")
-"""The kinds that what lets light out may be."""
+def _ends_light(setup: Setup, owner: str, key: str) -> tuple[str, ...]:
+    """Return the kinds of device through which the guard of light ends what a tunable lets out, the usual one first;
+    none if it lets none out. A lamp, which tells nothing of itself, may be a source of class 1 alone."""
+    if key == "shutter":
+        return ("shutter",)
+    kind = setup.type_of(owner)
+    if key != "emission" or kind.optics.element != "source":
+        return ()
+    stated = kind.parameters.get("laser_class")
+    return ("laser", "lamp") if stated is not None and str(stated.value) == "1" else ("laser",)
 
 
 def _with_article(kind: str) -> str:

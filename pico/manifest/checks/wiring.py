@@ -16,6 +16,9 @@ from pico.model.setup import Setup
 from pico.model.wiring import DeviceEntry, Wiring
 from pico.plug_ins.known import entries
 
+LOST = 1.0
+"""Within this a link that is lost ends light [s]."""
+
 
 def whole_wiring(read: Sequence[tuple[Document, Wiring]], setup: Setup) -> tuple[Wiring, list[Diagnostic]]:
     """Return the instruments that documents of kind Devices give a lab together, and all that is wrong with them."""
@@ -126,6 +129,10 @@ def _unit(document: Document, path: tuple[str, ...], unit: str, wanted: str) -> 
 
 def _safety(document: Document, own: Wiring, whole: Wiring, setup: Setup) -> Iterator[Diagnostic]:
     for name, entry in own.safety_inputs.items():
+        if entry.heartbeat > LOST:
+            text = f"the `heartbeat` of {name} is {entry.heartbeat:g} s, and a lost link ends light within {LOST:g} s"
+            at = where(document, "safety_inputs", name, "heartbeat")
+            yield error("value", text, hint=f"write {LOST:g} s or less", source=at)
         if entry.device not in whole.devices:
             hint = did_you_mean(entry.device[:40], whole.devices) or "name one of `devices:`"
             at = where(document, "safety_inputs", name, "device")

@@ -50,7 +50,7 @@ class Count:
                 self.close()
             if self._file is None:
                 set_aside(self._path)
-                self._file = open_file(self._path, os.O_WRONLY | os.O_CREAT)
+                self._file = open_file(self._path, os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW)
             os.pwrite(self._file, f"{text} {zlib.crc32(text.encode())}".ljust(LENGTH).encode(), 0)
 
     def close(self) -> None:

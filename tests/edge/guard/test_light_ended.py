@@ -16,10 +16,11 @@ from laser_lab import bench
 from pico.backends.device import Capabilities
 from pico.backends.hardware.guard.ending import Closing, LightEnd
 from pico.backends.hardware.guard.note import Ended
-from pico.base.state_files import JOURNAL
+from pico.base.state_files import JOURNAL, LOCK
 from pico.diagnostics import PicoError, error
 from pico.edge import armings, emission
 from pico.edge.guard.journaling import record_ended
+from pico.edge.local import LocalEdge
 from pico.model.arming import Arming, ArmingPolicy, LaserRole
 from pico.places.bench import BenchPlace
 from pico.runs.journal import Journal
@@ -100,3 +101,12 @@ def test_what_arms_lasers_above_class_2_is_over_and_nothing_else(
     monkeypatch.setattr(armings, "keep", full)
     assert emission.disarm_all(setup, place, "a stop", NOW) == ("laser",)
     assert "laser" not in {one.laser for one in armings.kept(place)}
+
+
+def test_light_that_ended_is_told_as_such_if_the_lock_is_no_file(tmp_path: Path) -> None:
+    place = bench_at(tmp_path)
+    LOCK.path(place.folder).mkdir(parents=True)
+    edge = LocalEdge(SETUP, place, lambda setup: DEVICE)
+    edge._light_ended(
+        Ended(at="2026-11-24T12:00:00Z", why="a person stopped the bench", ends=ENDS[:1], by="a stop"), None
+    )
