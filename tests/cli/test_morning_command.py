@@ -148,7 +148,7 @@ def test_a_dirty_optic_and_a_dead_laser_are_told(lit: Path, pico: Pico) -> None:
     assert "repair: clean " in found
     pico("sim", "upset", "laser", "power=1e-7")
     dead = pico("morning", "--yes", "--detailed-exitcode")
-    assert dead.code == 2 and "Not read: cam.power" in dead.out and "no light above the background" in dead.out
+    assert dead.code == 2 and "Not read: cam.centroid.x" in dead.out and "no light above the background" in dead.out
     assert "100 %  laser: no light" in dead.out and "look at laser" in dead.out
     assert max(len(line) for line in dead.out.splitlines()) <= 120
 
