@@ -67,7 +67,7 @@ def require_set_down(folder: Path, pico: Pico) -> None:
     with Bench.open(folder) as bench:
         assert bench.observe().robots["arm1"].holding is None
     assert pico("status").code == 0
-    assert pico(*PLAN).code == 2
+    assert pico(*PLAN).code in (0, 2), "0 if all had been moved when it was ended, on a busy machine"
     assert pico(*APPLY).code == 0
     assert pico(*PLAN).code == 0
 
