@@ -177,7 +177,7 @@ def test_after_a_stop_or_a_trip_nothing_lets_light_out_until_a_person_arms_again
         device = Guarded(apparatus.device._inner)  # type: ignore[attr-defined]
         device.dead_men = frozenset({"laser"})
         apparatus._opening = lambda setup: device  # type: ignore[assignment]
-        apparatus.become(bench.setup)
+        apparatus.become(bench.setup, {})
         for _ in range(2):
             bench.wait(bench.edge.arm(arming()))
             assert bench.observe().licences["laser"].laser_class == "3R"  # type: ignore[index]
