@@ -7,7 +7,7 @@ standard input, each answered by one: `["lit"]` (whether light leaves each laser
 `["freeze", BOX, true]` (its port takes everything and answers nothing), `["cut", BOX]`.
 
 `laser` has a shutter and is switched, `bare` has no shutter; `second`, on a bench of three lasers, is as `laser`. All
-are of class 2, so that nobody has to arm them.
+are of class 2, so they need no arming.
 """
 
 from __future__ import annotations

@@ -53,10 +53,10 @@ class BenchWiring:
 
 
 def _changed() -> Diagnostic:
-    text = "what a file of kind Devices says was changed since the process began that guards the light of this bench, "
-    hint = "`pico validate` says whether the file is right; `pico stop --now` ends all light, then a guard that PICO "
-    hint += "started ends by itself within seconds, and `pico edge` is ended and started by you; then call this again"
-    return error(CODE, f"{text}or can't be read, so no light is let out", hint=hint)
+    text = "no light is let out: the devices file was changed after the guard of this bench started, or can't be read"
+    hint = "check the file with `pico validate`, then end all light with `pico stop --now`: a guard that PICO started "
+    hint += "exits within seconds; restart your own `pico edge`. Then repeat this command"
+    return error(CODE, text, hint=hint)
 
 
 def _files(root: Path) -> tuple[bytes, ...]:
