@@ -24,6 +24,7 @@ from wire_grammars import NOTHING, Allowed
 from pico.emulators.behind import Alone
 from pico.emulators.registry import emulator
 from pico.emulators.xarm import server
+from pico.emulators.xarm.reports import EVERY
 from pico.model.wiring import DeviceEntry
 
 STATE, FAULT, JOINTS, RTU, ENABLED = 13, 15, 42, 124, 88
@@ -81,13 +82,14 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
     _forger.append(forger)
 
     def report(port: int, box: Any) -> bytes:
-        if time.monotonic() < held[0]:
-            return b""
+        now = time.monotonic()
+        if now < held[0]:  # the process that sends set-points reads reports, too: all readers get the same
+            return bytes(forger.sent[-1][1]) if now < _sent_at[0] + EVERY[port] / PACE else b""
         forged = len(forger.sent)
         said = bytes(forger.passed(b"report" + str(port).encode(), reported(port, box)))
-        held[0] = time.monotonic() + HOLDS if len(forger.sent) > forged else 0.0
+        held[0] = now + HOLDS if len(forger.sent) > forged else 0.0
         if held[0]:
-            _sent_at[:] = [time.monotonic()]
+            _sent_at[:] = [now]
         return said
 
     server.answer, server.report = answer, report

@@ -23,7 +23,7 @@ from pico.drivers.driver import Driver
 from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
-from pico.model.instruments.declaration import Complaint
+from pico.model.instruments.complaint import Complaint
 from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 

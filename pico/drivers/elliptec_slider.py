@@ -15,7 +15,8 @@ from pico.drivers import judging
 from pico.drivers.bus import Bus
 from pico.drivers.elliptec import Device, complaints_of, series_driver
 from pico.drivers.protocols import Identity
-from pico.model.instruments.declaration import Complaint, Setting
+from pico.model.instruments.complaint import Complaint
+from pico.model.instruments.declaration import Setting
 from pico.model.instruments.readout import Readout, unknown
 from pico.model.wiring import DeviceEntry
 

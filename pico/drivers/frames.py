@@ -111,6 +111,7 @@ CAMERA = Driver(
     closed=lambda link: link.close(),
     address={"host": "the server's name or number", "port": "its TCP port"},
     bus=("host", "port"),
+    required=("host",),
     properties={"frame": "count", "exposure": "ms", "gain": "dB"},
     settings={},
     maturity="emulated",

@@ -261,6 +261,7 @@ class Contact:
 _CONTACTS = {
     **ADDRESS, "channel": "the number of its contact", "relay": "the number of its relay",
 }  # fmt: skip
+_CONTACT_NUMBERS = {"channel": (0, 9999), "relay": (0, 9999)}
 METER_SETTINGS = {
     **SETTINGS,
     "wavelength": Setting(kind=bool, default=True, about="whether it knows `SENS:CORR:WAV`, to be told the light's"),
@@ -279,16 +280,19 @@ LASER = Driver(
 )  # fmt: skip
 SAFETY = Driver(
     kind="safety input", made=SafetyInput, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    required=("channel",), numbers=_CONTACT_NUMBERS,
     settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 SHUTTER = Driver(
     kind="shutter", made=Shutter, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    required=("channel", "relay"), numbers=_CONTACT_NUMBERS,
     settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"open": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip
 LAMP = Driver(
     kind="lamp", made=Lamp, opened=Visa, closed=Visa.close, address=_CONTACTS, bus=("visa",),
+    required=("relay",), numbers=_CONTACT_NUMBERS,
     settings=SETTINGS, wire=wire_of, check=complaints, one_identity=True,
     properties={"on": ""}, needs=_NEEDS, maturity="emulated", emulator="scpi.contacts", link="scpi.contacts",
 )  # fmt: skip

@@ -17,7 +17,8 @@ from pico.drivers.limits import require_within
 from pico.drivers.line import Line
 from pico.drivers.protocols import Identity
 from pico.drivers.visa import ADDRESS, SETTINGS, Visa, complaints, wire_of, within_of
-from pico.model.instruments.declaration import Complaint, Setting
+from pico.model.instruments.complaint import Complaint
+from pico.model.instruments.declaration import Setting
 from pico.model.instruments.readout import Readout, unknown
 from pico.model.quantities import QuantityError, dimension
 from pico.model.wiring import DeviceEntry

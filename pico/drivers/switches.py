@@ -232,7 +232,8 @@ def _driver(kind: str, made: Any, prop: str) -> Driver:
         opened=lambda entry: SwitchLink(str(entry.address["host"]), int(entry.address["port"])),
         closed=lambda link: link.close(),
         address={"host": "the box's name or number", "port": "its TCP port", "name": "what it calls this one"},
-        bus=("host", "port"), properties={prop: ""}, settings=_SETTINGS if kind in ("shutter", "laser") else {},
+        bus=("host", "port"), required=("host", "name"),
+        properties={prop: ""}, settings=_SETTINGS if kind in ("shutter", "laser") else {},
         one_identity=True,
         maturity="emulated", emulator="switches", link="switches",
     )  # fmt: skip

@@ -10,7 +10,9 @@ from pico.diagnostics import PicoError, error
 from pico.drivers import judging
 from pico.drivers.bus import LONGEST
 from pico.drivers.protocols import Identity
-from pico.model.instruments.declaration import Complaint, Setting
+from pico.model.instruments.addresses import number_in, wrong_host
+from pico.model.instruments.complaint import Complaint
+from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
 REPLY = 1.0
@@ -43,7 +45,7 @@ def wire_of(entry: DeviceEntry) -> tuple[str, ...]:
     words = str(entry.address.get("visa", "")).split("::")
     kind = words[0].upper()
     if kind.startswith("TCPIP") and words[-1].upper() == "SOCKET" and len(words) == 4:
-        return words[1].lower(), words[2]
+        return words[1].lower(), number_in(words[2])
     if kind.startswith("ASRL"):
         return (words[0][4:],)
     board = kind if kind[-1:].isdigit() else f"{kind}0"
@@ -52,8 +54,11 @@ def wire_of(entry: DeviceEntry) -> tuple[str, ...]:
 
 
 def complaints(entry: DeviceEntry) -> Iterator[Complaint]:
-    """Yield the settings of a serial line that a device elsewhere has: they would do nothing."""
+    """Yield a host that is none, and the settings of a serial line that a device elsewhere has: they would do
+    nothing."""
     visa = str(entry.address.get("visa", ""))
+    if visa.upper().startswith("TCPIP") and len(words := visa.split("::")) > 1:
+        yield from wrong_host(words[1], "address.visa")
     if visa and not visa.upper().startswith("ASRL"):
         for key in _SERIAL.keys() & entry.settings.keys():
             text = f"`{key}` does nothing: `{visa[:60]}` is no serial line"

@@ -202,13 +202,21 @@ class Stage:
         return Identity(vendor="Zaber", model=model, serial=serial, firmware=firmware)
 
 
+CHAIN = (1, 99)
+"""The numbers that a device in a chain may have."""
+COUNTS = (0.001, 1e9)
+"""What a mm or a degree may have of counts."""
+
 STAGE = Driver(
     kind="axis", made=Stage, opened=opened, closed=lambda link: link.close(),
     address={"host": "its IP address, where it has one", "port": "the TCP port, or the serial port",
              "device": "its number in the chain", "axis": "the number of its axis"},
     bus=("host", "port"), usual={"device": "1", "axis": "1"}, properties={"position": "mm"},
+    numbers={"device": CHAIN, "axis": (1, 9)},
     settings={
-        "counts_per_unit": Setting(about="counts a mm or a degree: 1 / the microstep size on the vendor's page"),
+        "counts_per_unit": Setting(
+            range=COUNTS, about="counts a mm or a degree: 1 / the microstep size on the vendor's page"
+        ),
         "unit": Setting(kind=str, default="mm", choices=("mm", "deg"), about="what unit the counts are of"),
         "emulated_speed": Setting(default=26.0, unit="/s", range=(0.001, 1e4), about="how fast its emulator drives"),
     },

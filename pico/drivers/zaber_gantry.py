@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import asyncio
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
 from typing import Any
@@ -22,7 +22,9 @@ from pico.drivers.bus import Bus
 from pico.drivers.driver import Driver
 from pico.drivers.path import Path
 from pico.drivers.protocols import ArmState, Identity
-from pico.drivers.zaber import STAGE, Stage, opened
+from pico.drivers.zaber import CHAIN, COUNTS, STAGE, Stage, opened
+from pico.model.instruments.addresses import number_in
+from pico.model.instruments.complaint import Complaint
 from pico.model.instruments.declaration import Setting
 from pico.model.wiring import DeviceEntry
 
@@ -189,14 +191,34 @@ class Gantry:
 USUAL = {"x": "1", "y": "2", "z": "3", "yaw": "4"}
 """The numbers of the stages in the chain."""
 
+
+def stages_of(entry: DeviceEntry) -> list[dict[str, str]]:
+    """Return the place of each stage of a gantry in the chain, as a stage alone has it."""
+    return [{"device": number_in(entry.address.get(axis, USUAL[axis])), "axis": "1"} for axis in AXES]
+
+
+def complaints_of(entry: DeviceEntry) -> Iterator[Complaint]:
+    """Yield the axes of a gantry that are said to be one stage."""
+    first: dict[str, str] = {}
+    for axis, place in zip(AXES, stages_of(entry), strict=True):
+        if (other := first.setdefault(place["device"], axis)) != axis:
+            stated = axis if axis in entry.address else other
+            text = f"`{axis}` and `{other}` are both the stage {place['device']} of the chain"
+            hint = f"each axis has a stage of its own; if the address leaves `{axis}` out, it is {USUAL[axis]}"
+            yield Complaint(f"address.{stated}", text, hint)
+
+
 GANTRY = Driver(
     kind="arm", robot="gantry", made=Gantry, opened=opened, closed=lambda link: link.close(),
     address={"host": "its IP address, where it has one", "port": "the TCP port, or the serial port",
              **{axis: f"the number of the stage of {axis} in the chain" for axis in AXES}},
-    bus=("host", "port"), usual=USUAL, properties=dict(zip(AXES, ("mm", "mm", "mm", "deg"), strict=True)),
+    bus=("host", "port"), usual=USUAL, numbers=dict.fromkeys(AXES, CHAIN), takes=stages_of, check=complaints_of,
+    properties=dict(zip(AXES, ("mm", "mm", "mm", "deg"), strict=True)),
     settings={
-        "counts_per_mm": Setting(about="counts a mm of x, y and z: 1 / the microstep size on the vendor's page"),
-        "counts_per_deg": Setting(about="counts a degree of yaw"),
+        "counts_per_mm": Setting(
+            range=COUNTS, about="counts a mm of x, y and z: 1 / the microstep size on the vendor's page"
+        ),
+        "counts_per_deg": Setting(range=COUNTS, about="counts a degree of yaw"),
     },
     needs=STAGE.needs, maturity="emulated", emulator="zaber", link="zaber",
 )  # fmt: skip

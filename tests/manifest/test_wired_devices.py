@@ -236,3 +236,66 @@ def test_a_heartbeat_is_no_longer_than_a_lost_link_may_keep_light_on() -> None:
     assert wrong(text % "1.0") == []
     at, said, _ = only(text % "1.5")
     assert "the `heartbeat` of door is 1.5 s" in said and at.startswith("devices.yaml:10:")
+
+
+GANTRY = """\
+  arm1:
+    driver: zaber.gantry
+    address: {host: 10.0.0.3, port: 55550}
+    identity: {serial: "52001"}
+    settings: {counts_per_mm: 2000, counts_per_deg: 1000}
+"""
+SHUTTER = BOX.split("  laser_box", maxsplit=1)[0]
+RELAY = """\
+  box:
+    of: laser
+    driver: scpi.shutter
+    address: {visa: "TCPIP0::10.0.0.8::5025::SOCKET", relay: 1}
+"""
+
+
+@pytest.mark.parametrize(("written", "instead", "said"), [
+    ("port: 55550}", "port: 55550, y: 1}", "arm1: `y` and `x` are both the stage 1 of the chain"),
+    ("port: 55550}", "port: 55550, x: 3}", "arm1: `z` and `x` are both the stage 3 of the chain"),
+    ("port: 55550}", "port: 55550, y: two}", "arm1: `y` is a whole number from 1 to 99, not `two`"),
+    ("port: 55550}", "port: 55550, y: -1}", "arm1: `y` is a whole number from 1 to 99, not `-1`"),
+    ("port: 55550}", "port: 70000}", "arm1: `port` is a whole number from 1 to 65535, not `70000`"),
+    ("10.0.0.3", "10.0.0.03", "arm1: `10.0.0.03` is no IP address"),
+    ("10.0.0.3", "10.0.0.300", "arm1: `10.0.0.300` is no IP address"),
+    ("counts_per_mm: 2000", "counts_per_mm: 0", "arm1: `counts_per_mm` is 0.001 to 1e+09, not 0"),
+])  # fmt: skip
+def test_the_stages_of_a_gantry_are_four_with_counts(written: str, instead: str, said: str) -> None:
+    assert said in [text for _, text, *_ in wrong(HEAD + GANTRY.replace(written, instead))]
+
+
+@pytest.mark.parametrize("number", ["2", "02"])
+def test_a_stage_of_a_gantry_is_no_other_device(number: str) -> None:
+    stage = STAGE.replace("port: /dev/ttyUSB1, device: 2", f'host: 10.0.0.3, port: 55550, device: "{number}"')
+    stage = stage.replace("52001", "52002")
+    assert "y_stage is at 10.0.0.3:55550 device 2 axis 1, where arm1 is" in str(wrong(HEAD + GANTRY + stage))
+    assert "where arm1 is" not in str(wrong(HEAD + GANTRY + stage.replace(f'"{number}"', "5")))
+
+
+@pytest.mark.parametrize(("text", "said"), [
+    (BOX + SHUTTER.replace("shutter_box", "other").replace("name: shutter", "name: b"),
+     "other is laser.shutter, and shutter_box is, too"),
+    (BOX + BOX.removeprefix(SHUTTER).replace("laser_box", "other").replace("name: laser", "name: b"),
+     "other is laser.emission, and laser_box is, too"),
+    (ARM + ARM.replace("arm1:", "arm2:").replace("arm2:", "second:").replace("arm1_hand", "hand2")
+     .replace("10.0.0.2", "10.0.0.4"), "hand2 is the hand of arm1, and arm1_hand is, too"),
+    (STAGE + STAGE.replace("y_stage", "other").replace("device: 2", "device: 3").replace("52001", "52002"),
+     "other is ly_150.stage_y, and y_stage is, too"),
+])  # fmt: skip
+def test_one_thing_is_one_device(text: str, said: str) -> None:
+    assert said in [text for _, text, *_ in wrong(HEAD + text)]
+
+
+@pytest.mark.parametrize(("text", "said"), [
+    (BOX.replace(", name: laser}", "}"), "laser_box: the address has no `name`"),
+    (BOX.replace("host: 10.0.0.7, port: 4000, name: laser", "port: 4000, name: laser"),
+     "laser_box: the address has no `host`"),
+    (METER.replace("10.0.0.9", "10.0.0.009"), "meter: `10.0.0.009` is no IP address"),
+    (RELAY, "box: the address has no `channel`"),
+])  # fmt: skip
+def test_an_address_says_all_that_the_driver_needs(text: str, said: str) -> None:
+    assert said in [text for _, text, *_ in wrong(HEAD + text)]

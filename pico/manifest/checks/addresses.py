@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator, Mapping
-from itertools import pairwise
+from itertools import pairwise, product
 
 from pico.diagnostics import Diagnostic, SourceRange, error
 from pico.manifest.text.places import find, where, where_key
@@ -58,16 +58,25 @@ def _one_place(
         entry, about = devices[name]
         for first in names[:index]:
             other, of = devices[first]
-            here, there = about.place(entry), of.place(other)
-            shared = {key: said for key, said in here.items() if there.get(key) == said}
-            if entry.driver != other.driver and not (shared and _drives(here, there)):
-                continue
-            if here == there or (about.one_identity and "relay" in shared):
-                place = " ".join(f"{key} {said}" for key, said in shared.items())
+            same_driver = entry.driver == other.driver
+            pairs = product(about.places_of(entry), of.places_of(other))
+            both = [shared for here, there in pairs if (shared := _shared(here, there, same_driver, about)) is not None]
+            if both:
+                place = " ".join(f"{key} {said}" for key, said in both[0].items())
                 text = f"{name} is at {' '.join(filter(None, (_said(wire), place)))}, where {first} is"
                 hint = f"one of the two addresses is wrong: `pico devices identify {name}` says who answers"
                 yield error("device-address", text, hint=hint, source=_at(documents[name], name))
                 break
+
+
+def _shared(
+    here: Mapping[str, str], there: Mapping[str, str], same_driver: bool, about: Declaration
+) -> dict[str, str] | None:  # fmt: skip
+    """Return what two places at a link have in common if they are one; None if they are two."""
+    shared = {key: said for key, said in here.items() if there.get(key) == said}
+    if not same_driver and not (shared and _drives(here, there)):
+        return None
+    return shared if here == there or (about.one_identity and "relay" in shared) else None
 
 
 def _drives(here: Mapping[str, str], there: Mapping[str, str]) -> bool:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from pico.diagnostics import Diagnostic, did_you_mean, error, warning
 from pico.manifest.checks.addresses import check_addresses
 from pico.manifest.checks.devices import check_entry, declaration, declared
+from pico.manifest.checks.doubles import check_doubles
 from pico.manifest.text.names import check_names
 from pico.manifest.text.places import find, where, where_key
 from pico.manifest.text.tree import Document
@@ -39,7 +40,9 @@ def whole_wiring(read: Sequence[tuple[Document, Wiring]], setup: Setup) -> tuple
         )  # fmt: skip
     for document, wiring in read:
         found += _safety(document, wiring, whole, setup)
-    found += check_addresses(declared(whole.devices), {n: d for d, wiring in read for n in wiring.devices})
+    known, documents = declared(whole.devices), {n: d for d, wiring in read for n in wiring.devices}
+    found += check_addresses(known, documents)
+    found += check_doubles(known, documents, setup)
     return whole, found
 
 

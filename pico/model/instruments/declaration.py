@@ -3,10 +3,12 @@ without opening a link."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from pico.diagnostics import did_you_mean
+from pico.model.instruments.addresses import number_in, wrong_values
+from pico.model.instruments.complaint import Complaint
 from pico.model.wiring import DeviceEntry, Scalar
 
 Said = Scalar | Mapping[str, Scalar]
@@ -56,15 +58,6 @@ class Setting:
 _WORDS = {float: "a number", int: "a whole number", str: "text", bool: "true or false", dict: "a mapping"}
 
 
-@dataclass(frozen=True)
-class Complaint:
-    """Something wrong in the entry of a device: at which `key` (`address.bus`), what, and what to do."""
-
-    key: str
-    text: str
-    hint: str = ""
-
-
 @dataclass(frozen=True, kw_only=True)
 class Declaration:
     """What a driver declares of itself.
@@ -87,6 +80,12 @@ class Declaration:
     """Drivers that can share a link say the same here; else none do."""
     places: tuple[str, ...] | None = None
     """Which keys of the address tell the devices at one link apart; by default all that are not in `bus`."""
+    required: tuple[str, ...] = ()
+    """The keys of the address that a lab has to state, beside those of `bus`."""
+    numbers: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    """The keys of the address that are whole numbers, with the least and the greatest."""
+    takes: Callable[[DeviceEntry], Sequence[Mapping[str, str]]] | None = None
+    """Returns all places that an entry's device takes at its link, each as `place` says one, if they are several."""
     robot: str = ""
     """The model of the robots that an arm or a gripper is for; '' for any."""
     usual: Mapping[str, str] = field(default_factory=dict)
@@ -140,13 +139,18 @@ class Declaration:
         """Return what tells one physical link from another: host and port, or the name of a port."""
         if self.wire is not None:
             return self.wire(entry)
-        return tuple(str(entry.address[key]) for key in self.bus if key in entry.address)
+        said = {key: number_in(entry.address[key]) for key in self.bus if key in entry.address}
+        return tuple(value.lower() if key == "host" else value for key, value in said.items())
 
     def place(self, entry: DeviceEntry) -> dict[str, str]:
         """Return where at its link an entry's device is, by keys of the address, in one way of writing."""
         keys = self.places if self.places is not None else tuple(key for key in self.address if key not in self.bus)
-        said = {**self.usual, **{key: str(value) for key, value in entry.address.items()}}
+        said = {**self.usual, **{key: number_in(value) for key, value in entry.address.items()}}
         return {key: said[key].upper() if key in self.usual else said[key] for key in keys if key in said}
+
+    def places_of(self, entry: DeviceEntry) -> Sequence[Mapping[str, str]]:
+        """Return all places at its link that an entry's device takes."""
+        return (self.place(entry),) if self.takes is None else self.takes(entry)
 
     def complaints(self, entry: DeviceEntry) -> Iterator[Complaint]:
         """Yield all that is wrong with an entry, by the key at which it stands."""
@@ -158,9 +162,11 @@ class Declaration:
                 if key not in known:
                     hint = _known(key, known)
                     yield Complaint(f"{where}.{key}", f"`{entry.driver}` has no `{key[:40]}` in its {where}", hint)
-        for key in self.bus:
-            if key not in entry.address and key != "host":  # one without a host is on a serial port
+        for key in dict.fromkeys((*self.bus, *self.required)):
+            serial = key == "host" and "port" in self.bus and key not in self.required  # it may have a port alone
+            if key not in entry.address and not serial:
                 yield Complaint("address", f"the address has no `{key}`", f"`{key}` is {self.address[key]}")
+        yield from wrong_values(entry.address, self.numbers)
         for key, wired in entry.map.items():
             if wired.property not in self.properties_of(entry):
                 hint = _known(wired.property, self.properties_of(entry))
