@@ -120,6 +120,11 @@ def run_of(key: str) -> str:
     return run
 
 
+PATIENCE = 5.0
+"""How long a journal that another process writes is waited for [s]."""
+_LOCKED = "is locked"
+
+
 class Journal:
     """The journal of one bench. Every method raises PicoError where the database is locked, damaged or not writable."""
 
@@ -178,7 +183,7 @@ class Journal:
 
     def _open(self, name: str) -> None:
         self._db = sqlite3.connect(
-            name, timeout=5.0, isolation_level=None, check_same_thread=False, uri=name.startswith("file:")
+            name, timeout=PATIENCE, isolation_level=None, check_same_thread=False, uri=name.startswith("file:")
         )
         self._db.text_factory = _decoded
         try:
@@ -541,6 +546,11 @@ def _late(token: int) -> Diagnostic:
     return error("lease", f"the lease {token} is not the current one: somebody took the bench since", hint="plan again")
 
 
+def is_locked(exc: PicoError) -> bool:
+    """Return whether a journal could not be used because another process writes it."""
+    return any(one.code == "journal" and one.summary.endswith(_LOCKED) for one in exc.diagnostics)
+
+
 def as_text(data: Any) -> str:
     """Return JSON that keeps every digit, so that a recorded result is the result."""
     return json.dumps(data, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
@@ -550,7 +560,7 @@ def _trouble(path: Path, exc: Exception) -> Diagnostic:
     text = str(exc)
     if "locked" in text:
         hint = "another process writes it; try again when that is done"
-        return error("journal", f"the journal {path} is locked", hint=hint)
+        return error("journal", f"the journal {path} {_LOCKED}", hint=hint)
     if isinstance(exc, sqlite3.DatabaseError) and not isinstance(exc, sqlite3.OperationalError):
         return error("journal", f"the journal {path} is damaged: {text}", hint=SALVAGE)
     if "readonly database" in text and path.exists() and not os.access(path, os.W_OK) and not refusing(path.parent):

@@ -117,7 +117,10 @@ class Lights(Told):
 
         def now(ends: tuple[LightEnd, ...]) -> Ended:
             known = {one.laser for one in ends}
-            loose = (LightEnd(laser=name, closings=()) for name in lasers_of(self._setup) if name not in known)
+            before = notes.read(self._place)  # it may name a laser that a guard watched, and the files have no more
+            watched = {name for one in (before.killed, before.watch) if one is not None for name in one.lasers}
+            names = sorted({*lasers_of(self._setup), *watched} - known)
+            loose = (LightEnd(laser=name, closings=()) for name in names)
             return Ended(at=clock.now(), why=why, by=by, ends=(*(one for one in ends if one.laser), *loose))
 
         disarming = asyncio.create_task(asyncio.to_thread(self._disarmed, by, disarms))

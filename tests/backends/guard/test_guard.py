@@ -148,6 +148,14 @@ def test_a_stop_ends_light_without_any_device_but_lasers_and_shutters(tmp_path: 
         assert any("second MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
 
 
+def test_a_stop_names_a_laser_that_a_killed_guard_watched_and_the_files_have_no_more(tmp_path: Path) -> None:
+    with guarded(tmp_path, watch=False) as rig:
+        write(rig.place, Note(watch=replace(watching(("removed", "bare"), ()), pid=2**22 - 1)))
+        ended = asyncio.run(rig.lights.end("a person stopped the bench", "a stop"))
+        assert {end.laser: end.is_dark for end in ended.ends}["removed"] is False
+        assert any("removed MAY STILL EMIT" in one.summary for one in notices(read(rig.place)))
+
+
 def test_a_guard_that_was_killed_is_told_by_who_comes_next(tmp_path: Path) -> None:
     with guarded(tmp_path, watch=False) as rig:
         gone = replace(watching(("bare", "laser"), ("laser",)), pid=2**22 - 1)

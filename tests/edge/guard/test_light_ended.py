@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import sqlite3
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
+from threading import Thread
 from types import SimpleNamespace
 from typing import Any
 
@@ -68,6 +70,26 @@ def test_it_is_written_from_any_loop_that_runs(tmp_path: Path) -> None:
         await asyncio.to_thread(record_ended, SETUP, DEVICE, path, ended, None, 0)
 
     asyncio.run(within())
+    with closing(Journal(path)) as journal:
+        assert [(run.holder, run.outcome) for run in journal.runs()] == [("a stop", "done")]
+
+
+def test_a_journal_that_was_locked_for_long_has_the_entry_later(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(f"{Journal.__module__}.PATIENCE", 0.05)
+    monkeypatch.setattr(f"{record_ended.__module__}.AGAIN", 0.05)
+    path = JOURNAL.path(bench_at(tmp_path).folder)
+    Journal(path).close()
+    ended = Ended(at="2026-11-24T12:00:00Z", why="a person stopped the bench", ends=ENDS[:1], by="a stop")
+    with closing(sqlite3.connect(path, isolation_level=None)) as other:
+        other.execute("BEGIN EXCLUSIVE")
+        writing = Thread(target=record_ended, args=(SETUP, DEVICE, path, ended, None, 0))
+        writing.start()
+        writing.join(0.3)
+        assert writing.is_alive(), "it tries again"
+        other.execute("ROLLBACK")
+    writing.join(10.0)
     with closing(Journal(path)) as journal:
         assert [(run.holder, run.outcome) for run in journal.runs()] == [("a stop", "done")]
 
