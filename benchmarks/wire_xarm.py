@@ -24,7 +24,7 @@ from wire_grammars import NOTHING, Allowed
 from pico.emulators.behind import Alone
 from pico.emulators.registry import emulator
 from pico.emulators.xarm import server
-from pico.emulators.xarm.reports import EVERY
+from pico.emulators.xarm.server import XArmEmulator
 from pico.model.wiring import DeviceEntry
 
 STATE, FAULT, JOINTS, RTU, ENABLED = 13, 15, 42, 124, 88
@@ -73,26 +73,32 @@ class Behind(Alone):
 @contextmanager
 def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
     """Yield the entry of an emulated box and what is behind it, its answers and reports led through the forger."""
-    behind, answered, reported = Behind({"pace": PACE}), server.answer, server.report
+    behind, answered, reported = Behind({"pace": PACE}), server.answer, XArmEmulator.reported
 
     def answer(box: Any, frame: Any) -> bytes:
         return bytes(forger.passed(bytes([frame.register]) + frame.payload, answered(box, frame)))
 
-    held = [0.0]
+    held, due = [0.0], set[Any]()
     _forger.append(forger)
 
-    def report(port: int, box: Any) -> bytes:
+    def report(box: Any, to: Any, port: int) -> bytes:
         now = time.monotonic()
-        if now < held[0]:  # the process that sends set-points reads reports, too: all readers get the same
-            return bytes(forger.sent[-1][1]) if now < _sent_at[0] + EVERY[port] / PACE else b""
+        if now < held[0]:  # the process that sends set-points reads reports, too: each reader gets the same, once
+            if to not in due:
+                return b""
+            due.discard(to)
+            _sent_at[:] = [now]
+            return bytes(forger.sent[-1][1])
         forged = len(forger.sent)
-        said = bytes(forger.passed(b"report" + str(port).encode(), reported(port, box)))
-        held[0] = now + HOLDS if len(forger.sent) > forged else 0.0
-        if held[0]:
+        said = bytes(forger.passed(b"report" + str(port).encode(), reported(box, to, port)))
+        if len(forger.sent) > forged:
+            held[0] = now + HOLDS
+            due.clear()
+            due.update(other for other in box._readers if other is not to)
             _sent_at[:] = [now]
         return said
 
-    server.answer, server.report = answer, report
+    server.answer, XArmEmulator.reported = answer, report  # type: ignore[method-assign]
     running = emulator("xarm").started({"it": (case.entry, behind)})
     try:
         entry = case.entry
@@ -102,7 +108,7 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
         ), behind  # fmt: skip
     finally:
         running.close()
-        server.answer, server.report = answered, reported
+        server.answer, XArmEmulator.reported = answered, reported  # type: ignore[method-assign]
 
 
 # what is asked

@@ -263,13 +263,16 @@ class Session:
         if self.json and not auto_approve:
             raise PicoError(error("usage", "with --json nobody is asked", hint="add --auto-approve"))
 
-    def confirm(self, question: str, auto_approve: bool) -> bool:
-        """Ask, unless told not to, and return whether the answer is yes. Raises PicoError where nobody can answer."""
-        if auto_approve:
+    def confirm(self, question: str, auto_approve: bool, *, by_person: bool = False) -> bool:
+        """Ask, unless told not to, and return whether the answer is yes. Raises PicoError if the call has no terminal.
+        `by_person`: only a person at the table knows the answer, and no option gives it."""
+        if auto_approve and not by_person:
             self.intend()
             return True
         if sys.stdin is None or not sys.stdin.isatty():
-            hint = "add --auto-approve (or -y) where nobody sits at a terminal"
+            hint = "add --auto-approve (or -y) if this call has no terminal"
+            if by_person:
+                hint = "run this command at a terminal by the table: --yes does not answer this question"
             raise PicoError(error("usage", f"nobody can be asked here: {question.strip()}", hint=hint))
         write(sys.stdout, f"{question} [y/N] ", end="")
         try:

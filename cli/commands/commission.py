@@ -8,8 +8,8 @@ from typing import Annotated, get_args
 import typer
 
 from pico.backends.devices import EMULATED
-from pico.diagnostics import ExitCode, PicoError, did_you_mean, error
-from pico.model.commissioning import DAYS, STEPS, Step
+from pico.diagnostics import Diagnostic, ExitCode, PicoError, did_you_mean, error
+from pico.model.commissioning import CODE, DAYS, STEPS, Step
 
 from ..arguments import LockTimeout, Yes
 from ..session import Session
@@ -42,7 +42,7 @@ def commission(
       pico commission --backend hardware --list
       pico commission --emulate --repeats 2 --drift-hours 0 --yes
     """
-    from pico.bench.commissioning.walk import Walk
+    from pico.bench.commissioning.walk import Walk, standing_by_file
 
     session = Session.of(context)
     steps = _steps(only)
@@ -51,6 +51,11 @@ def commission(
     if not listed:
         session.require_answer(auto_approve)
     bench = session.bench(writing=not listed)
+    if listed and (standing := standing_by_file(bench)) is not None:
+        session.show(view, standing)
+        text = "another process serves this bench: whether its devices are those of the report was not asked"
+        session.tell([Diagnostic("note", CODE, text)])
+        return ExitCode.DONE
     walk = Walk(bench, Person(session, auto_approve, bench.backend_name), repeats=repeats, hours=drift_hours)
     if listed:
         session.show(view, walk.standing())
@@ -88,5 +93,4 @@ class Person:
 
     def confirm(self, question: str, *, by_person: bool = False) -> bool:
         """Ask; what only a person can know of a real bench `--yes` does not answer."""
-        emulated = self.name == EMULATED
-        return self.session.confirm(question, self.auto_approve and (emulated or not by_person))
+        return self.session.confirm(question, self.auto_approve, by_person=by_person and self.name != EMULATED)

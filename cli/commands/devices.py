@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from pico.backends.devices import EMULATED
-from pico.diagnostics import ExitCode
+from pico.diagnostics import Diagnostic, ExitCode
 
 from ..arguments import group
 from ..session import Session
 from ..terminal.waiting import waiting
 from ..views import device_properties as properties
 from ..views import devices as view
+
+if TYPE_CHECKING:
+    from pico.edge.network.remotes import Place
 
 HEADING = "The simulator, and the rest"
 ORDER = 230
@@ -93,9 +96,10 @@ def read(context: typer.Context, devices: Names = None) -> int:
 
     session = Session.of(context)
     setup = bench_of(session.folder)
+    place = session.place(find_lab(session.folder))
     with waiting("Asking the devices"):
-        emulate = session.place(find_lab(session.folder)).name == EMULATED
-        rows = asked(named(setup, devices or ()), emulate=emulate, properties=True)
+        rows = asked(named(setup, devices or ()), emulate=place.name == EMULATED, properties=True)
+    _tell_of_another(session, place)
     session.show(properties, properties_of(setup, rows))
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)
@@ -108,9 +112,27 @@ def _asked(context: typer.Context, devices: list[str] | None, *, whoever: bool) 
 
     session = Session.of(context)
     entries = instruments(session.folder, devices or ())
+    place = session.place(find_lab(session.folder))
     with waiting("Asking the devices"):
-        rows = asked(entries, emulate=session.place(find_lab(session.folder)).name == EMULATED, whoever=whoever)
+        rows = asked(entries, emulate=place.name == EMULATED, whoever=whoever)
+    _tell_of_another(session, place)
     session.show(view, rows, identify=whoever)
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)
     return ExitCode.ERROR if any(one.severity == "error" for one in wrong) else ExitCode.DONE
+
+
+def _tell_of_another(session: Session, place: Place) -> None:
+    """Tell that another process has the devices of this bench, if one serves it."""
+    from pico.edge.link import place as sockets
+    from pico.places.bench import BenchPlace
+
+    if not isinstance(place, BenchPlace) or sockets.find(place) is None:
+        return
+    text = "another process serves this bench, and has opened its devices"
+    hint = "one that takes a single connection does not answer a second program; `pico status` shows what that process "
+    hint += "reads"
+    if place.name == EMULATED:
+        text = "another process serves this bench: these are emulators of this command's own, not those of that process"
+        hint = "`pico status` shows what that process reads"
+    session.tell([Diagnostic("note", "served", text, hint=hint)])

@@ -35,7 +35,7 @@ class Person:
 
     def confirm(self, question: str, *, by_person: bool = False) -> bool:
         """Ask; `--yes` answers no question of a real bench that only a person can."""
-        return self.session.confirm(question, self.auto_approve and (self.name == EMULATED or not by_person))
+        return self.session.confirm(question, self.auto_approve, by_person=by_person and self.name != EMULATED)
 
     def show(self, pose: Any, board: Board, text: str) -> bool:
         """Ask for the board, and return whether it is held there now."""

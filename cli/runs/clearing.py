@@ -26,7 +26,7 @@ def clear_faults(session: Session, bench: Bench) -> ExitCode:
         fault = faults[0]
         require_person(session, bench, fault)
         session.say(view.text(fault))
-        if not session.confirm(view.QUESTION, False):
+        if not session.confirm(view.QUESTION, False, by_person=True):
             session.say(f"Nothing was cleared. Check it, then {AGAIN}.")
             return ExitCode.ERROR
         bench.recovery.clear_fault(fault)

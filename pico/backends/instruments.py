@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pico.diagnostics import Diagnostic, PicoError, did_you_mean, error
 from pico.drivers.checking import Answer, anybody, checked
-from pico.drivers.registry import driver, known_driver, missing
+from pico.drivers.registry import driver, driver_of, known_driver, missing
 from pico.emulators.behind import Alone
 from pico.emulators.registry import EmulatedBench
 from pico.manifest.load import find_lab, load_folder
@@ -123,7 +123,7 @@ def unreachable(entries: dict[str, DeviceEntry]) -> dict[str, tuple[Diagnostic, 
     found: dict[str, tuple[Diagnostic, ...]] = {}
     for name, entry in entries.items():
         try:
-            driver(entry.driver)
+            driver_of(entry)
         except PicoError as exc:
             found[name] = tuple(replace(one, address=name) for one in exc.diagnostics)
     return found

@@ -33,6 +33,9 @@ def known() -> Mapping[str, EntryPoint]:
 INTERFACE = Interface(GROUP, {"": instance(Driver)})
 
 
+_INSTALL = "install the package that brings it"
+
+
 def known_driver(name: str) -> Driver | None:
     """Return a driver; None for one that is not installed, or is broken."""
     try:
@@ -46,10 +49,22 @@ def driver(name: str) -> Driver:
     for a plug-in that is broken, or of a kind that there is not (code `plugin`)."""
     if name not in known():
         near = did_you_mean(name[:40], known())
-        hint = f"{near} Or install the package that brings it" if near else "install the package that brings it"
+        hint = f"{near} Or {_INSTALL}" if near else _INSTALL
         raise PicoError(error("driver", f"there is no driver `{name[:40]}`", hint=hint))
     found: Driver = loaded(INTERFACE, known()[name])
     return _guarded(found, name)
+
+
+def driver_of(entry: DeviceEntry) -> Driver:
+    """Return the driver of a device; raises PicoError as `driver`, with the package that the lab names for it."""
+    try:
+        return driver(entry.driver)
+    except PicoError as exc:
+        (one,) = exc.diagnostics
+        if not entry.package or one.code != "driver":
+            raise
+        hint = one.hint.replace(_INSTALL, f"`pip install {entry.package}`")
+        raise PicoError(replace(one, hint=hint)) from exc
 
 
 def _guarded(found: Driver, name: str) -> Driver:
@@ -88,7 +103,7 @@ class Buses:
     def opened(self, name: str, entry: DeviceEntry) -> Instrument:
         """Return the instrument of an entry; nothing of it is asked yet: `connect` does that. Raises PicoError where
         there is no such driver, what it needs is not installed, or the entry does not go with it."""
-        found = driver(entry.driver)
+        found = driver_of(entry)
         if install := missing(found):
             module = found.needs[0] if found.needs else ""
             text = f"{name} needs `{module}`, which is not installed"

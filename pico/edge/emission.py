@@ -119,8 +119,10 @@ async def require_ended(setup: Setup, device: Device, given: Arming) -> None:
             f"to wire: the doors and the emergency stop of the table in series, through the interlock input of {name} "
         )
         detail += "or the supply of its shutter, so that opening one ends its light with every computer switched off"
-        hint = "then say `policy: {hard_wired_interlock: true}` in lab.yaml; or give its shutter a dead-man, "
-        hint += "`settings: {watchdog: 1}` with the driver `switches.shutter`"
+        has_shutter = "shutter" in setup.type_of(name).tunables
+        what, driver = ("its shutter", "switches.shutter") if has_shutter else ("its head", "switches.laser")
+        hint = f"then say `policy: {{hard_wired_interlock: true}}` in lab.yaml; or give {what} a dead-man, "
+        hint += f"`settings: {{watchdog: 1}}` with the driver `{driver}`"
         raise PicoError(error(DEAD_MAN, f"{text}this computer froze", detail=detail, hint=hint), ExitCode.DENIED)
 
 

@@ -47,6 +47,11 @@ def read_emulation(documents: Iterable[Document], setup: Setup) -> tuple[Emulati
             hint = did_you_mean(name[:40], known) or "name a device of the file of kind Devices"
             text = f"the lab has no device `{name[:40]}`"
             found.append(error("unknown-device", text, hint=hint, source=where_key(first, "devices", name)))
+    inputs = {one.device for one in setup.wiring.safety_inputs.values()} if setup.wiring else set()
+    for name, one in scenario.devices.items():
+        if one.unsafe is not None and name in known and name not in inputs:
+            text, hint = f"`unsafe` does nothing: {name} reads no safety input", "name a device of `safety_inputs:`"
+            found.append(error("value", text, hint=hint, source=where_key(first, "devices", name, "unsafe")))
     return (None if found else scenario), found
 
 

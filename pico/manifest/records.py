@@ -145,8 +145,9 @@ class _Translation:
             return self._at(place.node, code or "type", summary or f"{name} is wrong", label=expected_quantity(unit))
         reason = found.get("ctx", {}).get("error")
         if isinstance(reason, ValueError) and found["type"] == "value_error":
-            hint = getattr(reason, "hint", "") or f"expected {describe(place.kind)}"
-            return self._at(place.key, "value", f"{name}: {reason}", hint=hint)
+            node, kind = _named(place, str(reason))
+            hint = getattr(reason, "hint", "") or f"expected {describe(kind)}"
+            return self._at(node, "value", f"{name}: {reason}", hint=hint)
         summary = f"{name} is {shown(plain(place.node))}"
         if isinstance(place.node, Scalar) and place.node.value is None:
             return self._at(place.key, "type", summary, hint=f"expected {describe(place.kind)}")
@@ -176,6 +177,19 @@ class _Translation:
             node = next(iter(node.entries.values()))[0]
         where = self.document.source.range(node.start, node.end)
         return error(code, summary, hint=hint, label=label, source=where)
+
+
+def _named(place: _Place, reason: str) -> tuple[Node, Any]:
+    """Return the value of the key that a reason names in backticks, at a place or one level below it, and its type in
+    the model; the key of the place if it names none that is there."""
+    levels = [(place.node, place.kind)]
+    if isinstance(place.node, Map):
+        levels += [(value, inside(place.kind, key)) for key, (_, value) in place.node.entries.items()]
+    for word in reason.split("`")[1::2]:
+        for node, kind in levels:
+            if isinstance(node, Map) and word in node.entries:
+                return node.entries[word][1], inside(kind, word)
+    return place.key, place.kind
 
 
 def _quotes(place: _Place) -> str:

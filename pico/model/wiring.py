@@ -64,7 +64,7 @@ class DeviceEntry:
     def __post_init__(self) -> None:
         for name, (low, high) in self.limits.items():
             if low > high:
-                raise ValueError(f"the limits of `{name}` are [least, greatest]")
+                raise ValueError(f"the limits of `{name}` are [least, greatest], not [{low:g}, {high:g}]")
 
     def setting(self, name: str, default: Scalar) -> Scalar:
         """Return a setting that is no mapping; `default` without it."""

@@ -39,7 +39,7 @@ def operations(answer: Any) -> list[tuple[str, Any]]:
 def test_apply_leaves_a_laser_above_class_2_shut_and_says_what_opens_it(guarded: Path, pico: Pico) -> None:
     told = pico("apply", "--yes")
     assert told.code == 0 and "The bench equals the manifest" in told.out
-    assert "laser (class 3R) is left shut: nobody has armed it" in told.err
+    assert "laser (class 3R) stays dark: nobody has armed it" in told.err
     assert "`pico laser arm laser`" in told.err and not row(pico)["emits"]
     assert pico("plan", "--detailed-exitcode").code == 0
 
@@ -134,7 +134,7 @@ def test_after_a_move_the_light_comes_back_only_where_it_was_armed(guarded: Path
     armings.forget(bench_at(guarded), "laser")  # as if nobody ever had: it was opened by hand
     told = pico("plan", "e1", "--json").data
     assert operations(told) == [("laser", "closed")]
-    assert any(d["code"] == "unarmed" and "is left shut" in d["summary"] for d in told["diagnostics"])
+    assert any(d["code"] == "unarmed" and "stays dark" in d["summary"] for d in told["diagnostics"])
 
 
 @pytest.mark.parametrize(
@@ -200,7 +200,7 @@ def test_a_saved_plan_goes_without_the_light_that_nobody_lets_out_any_more(guard
     assert pico("plan", "--out", "lit.plan").code == 0
     assert pico("laser", "disarm", "laser").code == 0
     told = pico("apply", "./lit.plan", "--yes")
-    assert told.code == 0 and "is left shut" in told.err and not row(pico)["emits"]
+    assert told.code == 0 and "stays dark" in told.err and not row(pico)["emits"]
 
 
 def test_hardware_is_never_waived(guarded: Path, pico: Pico) -> None:

@@ -98,7 +98,7 @@ def test_a_killed_run_is_taken_up_again(tmp_path: Path, monkeypatch: pytest.Monk
     keeping.restore(killed, tmp_path / "lab")
     monkeypatch.chdir(tmp_path / "lab")
     resumed = pico("resume", "--auto-approve")
-    assert resumed.code == 0 and "laser (class 3R) is left shut: nobody has armed it" in resumed.err
+    assert resumed.code == 0 and "laser (class 3R) stays dark: nobody has armed it" in resumed.err
     assert pico("plan", "exchange", "--detailed-exitcode").code == 0
 
 

@@ -29,7 +29,8 @@ def brought_up(
     whose `entries` lead to them, and whose `failed` have none. Raises PicoError for a world or a
     scenario that can't be read."""
     pace, scenario = _pace(), emulation_of(place.root, setup)
-    world = EmulatedWorld(setup, place, pace, people=tuple(scenario.people.values()))
+    unsafe = {name: one.unsafe for name, one in scenario.devices.items() if one.unsafe is not None}
+    world = EmulatedWorld(setup, place, pace, people=tuple(scenario.people.values()), unsafe=unsafe)
     eyes = SharedEyes(world)
     eyes.open()
 

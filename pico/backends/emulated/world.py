@@ -6,9 +6,10 @@ from __future__ import annotations
 import math
 import threading
 import time
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 from pico.backends.emulated.contact import ABNORMAL_CURRENT, LOAD_ERROR, Contacts
@@ -47,14 +48,16 @@ DROP = 3.0
 KEPT = 0.05
 """Seconds of wall time after which the world is stored again while something moves."""
 
+NEVER: Mapping[str, tuple[float, float]] = MappingProxyType({})
+
 
 class EmulatedWorld:
-    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's; `people` come and go by it.
-    Called from any thread."""
+    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's; `people` come and go by it,
+    and safety inputs are `unsafe`, by device, from and until [s]. Called from any thread."""
 
     def __init__(
         self, setup: Setup, place: BenchPlace, pace: float = 1.0, wall: Callable[[], float] = time.monotonic,
-        people: Collection[Visitor] = (),
+        people: Collection[Visitor] = (), unsafe: Mapping[str, tuple[float, float]] = NEVER,
     ) -> None:  # fmt: skip
         """Raises PicoError where its file can't be read."""
         self.setup, self.place, self.pace = setup, place, pace
@@ -69,7 +72,7 @@ class EmulatedWorld:
         self.in_hand: tuple[str, Sheet] | None = None
         """The print that a robot holds, where it is in the tool's frame."""
         self._contacts: Contacts | None = None
-        self._people = people
+        self._people, self._unsafe = people, unsafe
         known = accepted_arms(place.root, place.name)
         self._arms, self._learned = arms_of(setup, self._world.seed, known), read_learned(place.root)
         self._held = {robot: self._from_tool(robot, now.joints, self._world.components[now.holding].pose or Pose(0, 0))
@@ -219,12 +222,17 @@ class EmulatedWorld:
 
     def present(self) -> tuple[Visitor, ...]:
         """Return the people of the scenario who are at the bench now."""
-        seconds = (self._wall() - self._began) * self.pace
-        return tuple(one for one in self._people if one.is_there(seconds))
+        return tuple(one for one in self._people if one.is_there(self._seconds()))
+
+    def _seconds(self) -> float:
+        """How long it has been there by its clock [s]."""
+        return (self._wall() - self._began) * self.pace
 
     def safe(self, device: str) -> bool:
-        """Return whether a safety input is as it should be: nobody is at the table, and nobody pulled it. Of the people
-        of the scenario only curtains know."""
+        """Return whether a safety input is as it should be: no person is at the table, none pulled it, and the scenario
+        has it safe now. Of the people of the scenario only curtains know."""
+        if device in self._unsafe and self._unsafe[device][0] <= self._seconds() < self._unsafe[device][1]:
+            return False
         inputs = self.setup.wiring.safety_inputs.values() if self.setup.wiring else ()
         notices = any(one.kind == "curtain" and one.device == device for one in inputs)
         return not (self._world.person or device in self._pulled or (notices and self.present()))

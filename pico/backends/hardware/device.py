@@ -242,12 +242,12 @@ class HardwareDevice:
         """What must be known of the instruments before anything moves."""
         found = list(not_counting(self.place.root, self.bench))
         if without := [a for a in unwired(self.setup, bench) if not self.setup.requests(*a.split("."))]:
-            text = f"no device of this bench has {', '.join(without)}: nobody compares or sets that"
+            text = f"no device of this bench has {', '.join(without)}: PICO neither compares nor sets that"
             found.append(Diagnostic("note", "no-device", text))
         for name, why in sorted(bench.lacking.items()):
             found += [replace(one, severity="warning", address=name) for one in why]
-        if most is not None:
-            text = f"nobody has tried yet how this bench stops: tools move at {most:g} mm/s at most"
+        if most is not None and self.setup.lab.robots:
+            text = f"how this bench stops was not tried yet: tools move at {most:g} mm/s at most"
             found.append(Diagnostic("note", CODE, text, hint="`pico commission` walks through it"))
         return found + [replace(one_motion(robot), severity="warning") for robot in sorted(untried)]
 

@@ -140,7 +140,7 @@ def wired(
     that is not installed, or is broken, answers every call with the reason (`lacking`). Raises PicoError for an entry
     that does not go with its driver, and for an extra that is missing.
     """
-    from pico.drivers.registry import driver
+    from pico.drivers.registry import driver_of
 
     found, wrong = Instruments(), list[Diagnostic]()
     if known is not None:
@@ -148,7 +148,7 @@ def wired(
     for name, entry in entries.items():
         about: Driver | None = None
         try:
-            about = driver(entry.driver)
+            about = driver_of(entry)
             found.maturity[name] = about.maturity
             if name in without:
                 raise PicoError(without[name])

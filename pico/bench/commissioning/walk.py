@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, Literal
 
-from pico.backends.devices import EMULATED
+from pico.backends.devices import EMULATED, HARDWARE
 from pico.backends.hardware.device import HardwareDevice
 from pico.backends.hardware.report import read, write
 from pico.base import clock
@@ -24,6 +24,7 @@ from pico.diagnostics import Diagnostic, ExitCode, PicoError, error
 from pico.edge.local import LocalEdge
 from pico.model.commissioning import BEFORE, CODE, DAYS, FILES, STEPS, Basis, Commissioning, Step, StepResult, changed
 from pico.model.record import record
+from pico.places.bench import BenchPlace
 from pico.policy.commissioning import until, why_not
 
 DOING: Mapping[Step, Callable[[AtBench], Found]] = {
@@ -53,6 +54,20 @@ class Done:
     step: Step
     result: StepResult
     diagnostics: tuple[Diagnostic, ...] = ()
+
+
+def standing_by_file(bench: Bench) -> Standing | None:
+    """Return how the commissioning of a bench that another process serves stands by its report alone, for that process
+    has its devices; None for a bench that is not served so, or has none to be asked."""
+    name, place = bench.backend_name, bench.place
+    if name not in (HARDWARE, EMULATED) or not isinstance(place, BenchPlace) or isinstance(bench.edge, LocalEdge):
+        return None
+    kind: Literal["hardware", "emulated"] = "emulated" if name == EMULATED else "hardware"
+    report = read(place.root, kind)
+    why = why_not(report, kind, report.basis if report else Basis(wired="", bench=""), clock.now())
+    ends = until(report) if report else None
+    said = clock.as_text(ends) if ends else ""
+    return Standing(bench=kind, file=FILES[kind], report=report, why=why, until=said)
 
 
 class Walk:

@@ -239,8 +239,12 @@ class XArmEmulator:
         for connection, (port, last) in list(self._readers.items()):
             if self.box.now - last >= EVERY[port]:
                 self._readers[connection] = (port, self.box.now)
-                said = report(port, self.box)
+                said = self.reported(connection, port)
                 self._send(connection, self.line.sent(said) if self.line else said)
+
+    def reported(self, to: socket.socket, port: int) -> bytes:
+        """Return what a reader at a report port is sent now."""
+        return report(port, self.box)
 
     def _send(self, to: socket.socket, data: bytes) -> None:
         try:

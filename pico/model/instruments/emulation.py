@@ -30,10 +30,15 @@ class Disturbance:
     """By how much each reply is late, in seconds of wall time."""
     dropped_replies: float = 0.0
     """The share of replies that are lost on the wire, 0 to 1; of an arm, of its reports."""
+    unsafe: tuple[float, float] | None = None
+    """From when until when a safety input reads unsafe, in seconds of the bench's clock since its emulators were
+    started."""
 
     def __post_init__(self) -> None:
         if self.travel is not None and self.travel[0] >= self.travel[1]:
             raise ValueError("`travel` is [least, greatest]")
+        if self.unsafe is not None and not 0 <= self.unsafe[0] < self.unsafe[1]:
+            raise ValueError("`unsafe` is [from, until] [s], and not negative")
         for name in ("lost_steps", "dropped_replies"):
             if not 0 <= getattr(self, name) <= 1:
                 raise ValueError(f"`{name}` is a share, 0 to 1")

@@ -185,7 +185,7 @@ def emits_alone(seen: Observation, laser: str, of: LaserClass, most: LaserClass)
 def left_shut(seen: Observation, lasers: Mapping[str, LaserClass]) -> tuple[Diagnostic, ...]:
     """Return a warning for each laser that a plan leaves shut though its light is asked for."""
     return tuple(
-        warning(UNARMED, f"{name} (class {of}) is left shut: {why_not(seen, name, of)}", hint=opening_hint(name),
+        warning(UNARMED, f"{name} (class {of}) stays dark: {why_not(seen, name, of)}", hint=opening_hint(name),
                 address=name)
         for name, of in sorted(lasers.items())
     )  # fmt: skip

@@ -175,3 +175,12 @@ def test_a_curtain_notices_a_person_and_a_door_does_not(setup: Setup, tmp_path: 
     world = EmulatedWorld(wired, bench_at(tmp_path, "emulated"), wall=lambda: clock[0], people=people)
     for clock[0], safe in ((0.0, True), (6.0, False), (11.0, True)):
         assert (world.safe("veil"), world.safe("box")) == (safe, True)
+
+
+def test_a_scenario_opens_a_door_for_a_while(setup: Setup, tmp_path: Path) -> None:
+    clock = [0.0]
+    world = EmulatedWorld(
+        setup, bench_at(tmp_path, "emulated"), pace=2.0, wall=lambda: clock[0], unsafe={"box": (4.0, 10.0)}
+    )
+    for clock[0], safe in ((0.0, True), (2.5, False), (5.5, True)):
+        assert (world.safe("box"), world.safe("lid")) == (safe, True)

@@ -323,4 +323,4 @@ def test_a_plan_warns_of_each_laser_that_it_leaves_shut() -> None:
     assert [(d.severity, d.code, d.address) for d in found] == [
         ("warning", "unarmed", "laser"), ("warning", "unarmed", "second")
     ]  # fmt: skip
-    assert found[0].summary == "laser (class 3R) is left shut: nobody has armed it" and "arm laser" in found[0].hint
+    assert found[0].summary == "laser (class 3R) stays dark: nobody has armed it" and "arm laser" in found[0].hint

@@ -24,7 +24,7 @@ def test_a_laser_that_nobody_armed_stays_shut_and_that_is_said() -> None:
     draft = compared(begun(lit(strong=True), values=DARK, then=OPEN))
     found = light_withheld(draft)
     assert found.withheld == {("laser", "shutter"): {"laser": "3B"}}
-    assert ["left shut" in d.summary for d in light_told(found).diagnostics] == [True]
+    assert ["stays dark" in d.summary for d in light_told(found).diagnostics] == [True]
     assert light_withheld(replace(draft, seen=armed(draft.seen))).withheld == {}
     assert light_withheld(compared(begun(lit(), values=DARK, then=OPEN))).withheld == {}  # a weak one
 
