@@ -14,6 +14,7 @@ import asyncio
 import math
 import random
 import struct
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -30,8 +31,8 @@ from pico.model.wiring import DeviceEntry
 STATE, FAULT, JOINTS, RTU, ENABLED = 13, 15, 42, 124, 88
 PACE = 10.0
 PULSES = 850
-HOLDS = 0.4
-"""For so long no report follows one that was replaced [s]."""
+HOLDS = 0.55
+"""For so long at most no report follows one that was replaced, until it was judged [s]; PICO takes 0.6 for lost."""
 RANGE = 2 * math.pi + 0.01
 """No joint of an xArm7 turns further [rad]."""
 ARM = DeviceEntry(
@@ -83,7 +84,9 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
 
     def report(box: Any, to: Any, port: int) -> bytes:
         now = time.monotonic()
-        if now < held[0]:  # the process that sends set-points reads reports, too: each reader gets the same, once
+        if (
+            now < held[0] and not _judged.is_set()
+        ):  # the process that sends set-points reads reports, too: each reader gets the same, once
             if to not in due:
                 return b""
             due.discard(to)
@@ -93,6 +96,7 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
         said = bytes(forger.passed(b"report" + str(port).encode(), reported(box, to, port)))
         if len(forger.sent) > forged:
             held[0] = now + HOLDS
+            _judged.clear()
             due.clear()
             due.update(other for other in box._readers if other is not to)
             _sent_at[:] = [now]
@@ -115,6 +119,10 @@ def wire(case: Any, forger: Any) -> Iterator[tuple[DeviceEntry, Alone]]:
 
 _forger = list[Any]()
 _sent_at = [0.0]
+READ = 0.2
+"""Within this the library has read a report [s]."""
+_judged = threading.Event()
+"""Set once the driver was asked what the replaced report said."""
 
 
 async def joints(arm: Any) -> Any:
@@ -139,15 +147,15 @@ async def enabled(arm: Any) -> Any:
     if (found := await arm.state()).lost or (clean and not found.enabled):
         await arm.ready()
     if clean:  # a report that was cut is noticed some reports later
-        await asyncio.sleep(HOLDS + 0.4)
+        await asyncio.sleep(0.4)
     else:
         ends = time.monotonic() + 2.0
         while forger.forge is not None and time.monotonic() < ends:
             await asyncio.sleep(0.005)
-        until = time.monotonic() + 0.75 * HOLDS  # read by the library by then, on a busy machine, too
-        while arm._link._heard < _sent_at[-1] and time.monotonic() < until:
+        while time.monotonic() < _sent_at[-1] + READ:  # a true report may still be on its way before it
             await asyncio.sleep(0.005)
     found = await arm.state()
+    _judged.set()
     return None if found.lost or (clean and not found.enabled) else (found.enabled, found.fault)
 
 
