@@ -50,7 +50,7 @@ PLANTS = {
     "insensitive-not-told": Plant(f"{NOMINAL}:cautions", _without("insensitive"), ("polarizer", "goal")),
     "bounds-without-a-name": Plant("pico.planning.optimizing:_from", _vaguely, ("goal",)),
     "dark-not-told": Plant("pico.planning.darkness:darkness", _always(()), ("shut",)),
-    "storage-not-told": Plant("pico.planning.darkness:_gone", _always(""), ("parked",)),
+    "storage-not-told": Plant("pico.planning.darkness:gone", _always(""), ("parked",)),
     "everything-out-of-range": Plant(f"{RANGES}:span", _always((100.0, 101.0))),
     "everything-blind": Plant(f"{RESPONSE}:blind", _always(True)),
     "everything-insensitive": Plant(f"{NOMINAL}:_moves", _always(False)),

@@ -95,14 +95,15 @@ class Measurements:
 
     def dark(self) -> str:
         """Return what keeps light back on the bench, or where to see where it goes."""
-        setup, seen = self.opened.setup, self.opened.observe()
-        known = seen.known_values
+        from pico.model.diff import show_value
+        from pico.optics.ends import closures
+
+        setup, known = self.opened.setup, self.opened.observe().known_values
         dark = [
-            f"{name}.{tunable} is {'false' if value is False else value}"
+            f"{name}.{tunable} is {show_value(value)}"
             for name in sorted(setup.lab.inventory)
             if setup.type_of(name).optics.element in ("source", "shutter")
-            for tunable, value in sorted(known.get(name, {}).items())
-            if (tunable, value) in (("shutter", "closed"), ("emission", False))
+            for tunable, value in closures(known.get(name, {}))
         ]
         opens = self._arming(dict.fromkeys(one.partition(".")[0] for one in dark))
         return "; ".join([", ".join(dark), *opens]) if dark else "`pico beam` shows where the light goes"

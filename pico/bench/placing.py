@@ -211,12 +211,24 @@ def slope_of(setup: Setup, seen: Observation, component: str, detector: str) -> 
         found = light_of(setup, moved, seen.known_values, lit=lambda _: True).at(detector)
         power = sum(a.power for a in found)
         if power <= 0:
+            _require_standing(setup, seen, component, detector)
             text = f"by the plan of the bench no light comes to {detector}"
             raise PicoError(error("dark", text, hint="`pico beam` shows where it goes", address=detector))
         return float(sum(a.power * a.center[0] for a in found) / power)
 
     slope = (middle(_STEP) - middle(-_STEP)) / (2 * _STEP)
     if abs(slope) < _LEAST:
+        _require_standing(setup, seen, component, detector)
         text = f"the light on {detector} hardly moves with {component}: {slope:.2g} mm for 1 mm"
         raise PicoError(error("goal", text, hint="another detector", address=component))
     return slope
+
+
+def _require_standing(setup: Setup, seen: Observation, component: str, detector: str) -> None:
+    """Raise PicoError if one of the two is in a slot, where it is out of the light."""
+    from pico.planning.darkness import gone
+
+    for name in (component, detector):
+        if why := gone(setup, seen, name):
+            hint = f"bring it there first: `pico move {name} x=... y=...`, or `pico apply` of a state with it"
+            raise PicoError(error("goal", f"{why}, and the light does not come through it", hint=hint, address=name))

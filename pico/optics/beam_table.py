@@ -11,14 +11,14 @@ import numpy as np
 
 from pico.diagnostics import Diagnostic, warning
 from pico.model.materials.glass import DESIGN
-from pico.model.materials.ranges import unfit
+from pico.model.materials.ranges import unfit, unfit_band
 from pico.model.materials.response import BLIND, quantum_efficiency
 from pico.model.observation import slot_at
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.axis import Meeting
 from pico.optics.beam import Beam, moments
-from pico.optics.ends import counted, stray
+from pico.optics.ends import closures, counted, stray
 from pico.optics.following import Crossing
 from pico.optics.gaussian import front
 from pico.optics.geometry import Event
@@ -116,7 +116,7 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
     for crossing in light.crossings:
         name, beam = crossing.component, crossing.beam
         x, y, z = beam.at.tolist()
-        if not beam.ghost:
+        if not beam.ghost and not _is_closed(light.parts.get(name)):
             yield from stray(setup, beam.source, Meeting(name, crossing.event, (x, y, z), beam.length))
         if crossing.clipped > CLIPPED and crossing.event != "blocked":
             left, up = _offset(beam, light.parts[name])
@@ -140,20 +140,31 @@ def _troubles(setup: Setup, light: Light) -> Iterator[Diagnostic]:
             text, near = f"no light comes to {name}", _passing(light, part)
             hint = "move it into a beam, or a beam onto it"
             yield warning("dark", f"{text}: {near}" if near else text, hint=hint, address=name)
-    pairs = {
-        (c.beam.source, c.component): c.beam.wavelength * 1e6
-        for c in light.crossings
-        if c.component and not c.beam.ghost
-    }
-    for (source, name), wavelength in pairs.items():
-        if name != source:
-            yield from unfit(light.parts[name].kind, name, source, wavelength)
+    yield from _unfit(light)
     for source, reached in light.cut.items():
         count = sum(c.beam.source == source for c in light.crossings)
         detectors = sorted(n for n in reached if light.parts[n].kind.optics.element == "detector")
         text = f"the beam of {source} goes round and round, and is not followed beyond {count} stretches"
         text += f": what {', '.join(detectors)} would read is unknown" if detectors else ""
         yield warning("endless", text, hint="turn a mirror, or end it in a beam block", address=source)
+
+
+def _is_closed(part: Part | None) -> bool:
+    """Whether a beam ends on a shutter or chopper as it is to: one that is closed."""
+    return part is not None and part.optic.element == "shutter" and any(closures(part.values))
+
+
+def _unfit(light: Light) -> Iterator[Diagnostic]:
+    """Yield a warning for each part that is not made for the light which comes to it."""
+    came: dict[str, dict[str, tuple[float, float]]] = {}
+    for c in light.crossings:
+        if c.component and not c.beam.ghost and c.component != c.beam.source:
+            cosine = float(c.beam.along @ light.parts[c.component].axes[0])
+            came.setdefault(c.component, {})[c.beam.source] = (c.beam.wavelength * 1e6, cosine)
+    for name, coming in came.items():
+        for source, (wavelength, _) in coming.items():
+            yield from unfit(light.parts[name].kind, name, source, wavelength)
+        yield from unfit_band(light.parts[name].kind, name, coming)
 
 
 def _passing(light: Light, part: Part) -> str:

@@ -3,16 +3,28 @@ made for their wavelength."""
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from typing import Any
 
 from pico.diagnostics import Diagnostic, warning
-from pico.model.materials.ranges import outside, unfit, wavelength_of
+from pico.model.materials.ranges import band, outside, unfit, unfit_band, wavelength_of
 from pico.model.pose import Pose, short
 from pico.model.setup import Setup
 from pico.model.state import LabState, place_of
 from pico.optics.axis import Axis, Meeting, Values, beams
+
+SHUTS = ("emission", "shutter", "blades")
+"""Tunables of sources, shutters and choppers that let no light out if they are off or closed."""
+
+
+def closures(values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:
+    """Yield the tunables of a source or a shutter that let no light out, each with its value: `shutter`, `closed`."""
+    for tunable in SHUTS:
+        if (value := values.get(tunable)) is False or value == "closed":
+            yield tunable, value
 
 
 def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tuple[Diagnostic, ...]:
@@ -20,13 +32,14 @@ def stray_beams(setup: Setup, state: LabState, but: Collection[str] = ()) -> tup
     that is no block: shutters count as open. `but`: not of these lasers."""
     poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
     values = {name: part.values for name, part in state.components.items()}
-    on = (
+    on = [
         axis
         for axis in beams(setup, poses, values)
         if values.get(axis.source, {}).get("emission") is True and axis.source not in but
-    )
+    ]
     found = (one for axis in on for one in (*_of_axis(setup, axis), *out_of_range(setup, axis, values)))
-    return counted(found)  # two arms of an interferometer send back to one place
+    # two arms of an interferometer send back to one place
+    return counted((*found, *_out_of_band(setup, poses, on, values)))
 
 
 def _of_axis(setup: Setup, axis: Axis) -> Iterator[Diagnostic]:
@@ -66,6 +79,25 @@ def out_of_range(setup: Setup, axis: Axis, values: Values) -> Iterator[Diagnosti
     if wavelength is not None:
         for name in dict.fromkeys(m.component for m in axis.meetings if m.component not in ("", axis.source)):
             yield from unfit(setup.type_of(name), name, axis.source, wavelength)
+
+
+def _out_of_band(setup: Setup, poses: Mapping[str, Pose], on: Sequence[Axis], values: Values) -> Iterator[Diagnostic]:
+    """Yield a warning for each bandpass filter that passes nothing of the beams which come to it."""
+    came: dict[str, dict[str, tuple[float, float]]] = {}
+    for axis in on:
+        wavelength = wavelength_of(setup, axis.source, values.get(axis.source, {}))
+        if wavelength is None:
+            continue
+        for leg in axis.legs:
+            for meeting in leg.met:
+                if meeting.component and band(setup.type_of(meeting.component), 1.0) is not None:
+                    yaw = math.radians(poses[meeting.component].yaw)
+                    x, y = (end - start for end, start in zip(meeting.at[:2], leg.start[:2], strict=True))
+                    far = math.dist(meeting.at, leg.start)
+                    cosine = (x * math.cos(yaw) + y * math.sin(yaw)) / far if far else 1.0
+                    came.setdefault(meeting.component, {})[axis.source] = (wavelength, cosine)
+    for name, light in sorted(came.items()):
+        yield from unfit_band(setup.type_of(name), name, light)
 
 
 def doubts(setup: Setup, poses: Mapping[str, Pose], values: Values, detector: str) -> Sequence[str]:

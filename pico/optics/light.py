@@ -17,6 +17,7 @@ from pico.model.setup import Setup
 from pico.optics.axis import Values, optic_of
 from pico.optics.beam import Beam, moments
 from pico.optics.coherence import dispersed
+from pico.optics.ends import closures
 from pico.optics.following import Before, Crossing, Followed, Least, Made, cleared
 from pico.optics.irradiance import Screen
 from pico.optics.irradiance import irradiance as projected
@@ -152,7 +153,7 @@ def light_of(
 
 def is_dark(laser: Mapping[str, object]) -> bool:
     """Return whether a laser with these tunables lets no light out."""
-    return laser.get("emission") is False or laser.get("shutter") == "closed"
+    return any(closures(laser))
 
 
 def _part(setup: Setup, name: str, pose: Pose, values: Values, unseen: Unseen) -> Part:

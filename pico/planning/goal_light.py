@@ -13,6 +13,7 @@ from pico.model.quantities import Value
 from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 from pico.optics.axis import Meeting, Values, beams
+from pico.optics.ends import SHUTS, closures
 from pico.optimize.choosing import CYCLES
 from pico.planning.nominal_bench import STEERS, straight
 
@@ -87,13 +88,11 @@ def _polarizes(setup: Setup, name: str) -> bool:
 def kept_back(setup: Setup, seen: Observation, parts: Collection[str], opened: Mapping[str, Value]) -> str:
     """Return what keeps light back on its way through parts, in words: a source that is off, or a shutter; empty for
     nothing. `opened`: what is set otherwise meanwhile, by address."""
+    known = seen.known_values
     for name in sorted(parts):
-        if setup.type_of(name).optics.element in ("source", "shutter"):
-            own = seen.known_values.get(name, {})
-            for tunable in ("emission", "shutter"):
-                value = opened.get(f"{name}.{tunable}", own.get(tunable))
-                if value is False or value == "closed":
-                    return f"{name}.{tunable} is {show_value(value)}"
+        own = {t: opened.get(f"{name}.{t}", known.get(name, {}).get(t)) for t in SHUTS}
+        for tunable, value in closures(own) if setup.type_of(name).optics.element in ("source", "shutter") else ():
+            return f"{name}.{tunable} is {show_value(value)}"
     return ""
 
 

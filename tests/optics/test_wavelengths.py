@@ -208,6 +208,33 @@ def test_each_part_outside_of_its_range_is_one_warning_by_beam_and_by_state(wave
     assert ("blind" in by_beam[-1].summary) == (wavelength == 1550)
 
 
+@pytest.mark.parametrize(
+    ("wavelengths", "yaw", "blocks"),
+    [((632.8,), 0, False), ((660,), 0, True), ((632.8,), 30, True), ((612,), 30, False), ((660, 632.8), 0, False)],
+)
+def test_a_bandpass_filter_that_passes_none_of_its_light_is_told(
+    wavelengths: tuple[float, ...], yaw: float, blocks: bool
+) -> None:
+    from pico.model.state import ComponentState, LabState
+
+    lasers = {f"laser{n}": replace_nm(kind("hene_laser"), w) for n, w in enumerate(wavelengths)}
+    kinds = {**lasers, "filter": kind("bandpass_filter"), "pm": kind("power_meter")}
+    places = {
+        **{f"laser{n}": Pose(100 + 100 * n, 400 + 4 * n) for n in range(len(lasers))},
+        "filter": Pose(500, 400, yaw),
+        "pm": Pose(700, 400),
+    }
+    if len(lasers) == 2:  # from the other side, where the meter stood
+        places |= {"laser1": Pose(900, 400, 180), "pm": Pose(700, 600)}
+    setup = setup_of(kinds)
+    by_beam = [d for d in troubles(setup, light(kinds, places)) if d.code == "outside-range" and d.address == "filter"]
+    parts = {n: ComponentState(pose=p, values={"emission": True} if n in lasers else {}) for n, p in places.items()}
+    state = LabState(lab="light", components=parts)
+    by_state = [d for d in stray_beams(setup, state) if d.code == "outside-range" and d.address == "filter"]
+    assert by_beam == by_state
+    assert [d.summary.partition(":")[0] for d in by_beam] == (["filter blocks the beam of laser0"] if blocks else [])
+
+
 def test_the_warning_stands_at_the_line_of_the_part(tmp_path: Path) -> None:
     (tmp_path / "lab.yaml").write_text("""apiVersion: pico/v1
 kind: Lab

@@ -64,3 +64,27 @@ def unfit(kind: ComponentType, name: str, source: str, wavelength: float) -> Ite
     elif why := outside(kind, wavelength):
         hint = f"take a part for {short(wavelength)} nm, or give its own range: `parameters: {{longest: ...}}`"
         yield warning("outside-range", f"{name} is {why} ({source})", hint=hint, address=name)
+
+
+def band(kind: ComponentType, cosine: float) -> tuple[float, float] | None:
+    """Return between which wavelengths [nm] a bandpass filter passes light that comes to it at a cosine of incidence;
+    None for what is no bandpass. Its center is at shorter wavelengths if it is tilted, as its layers have it: times
+    (1 - sin^2 / n^2)^1/2 with the `effective_index` n."""
+    center, width = kind.number("center_wavelength", "nm"), kind.number("bandwidth", "nm")
+    if kind.optics.element != "bandpass" or center is None or width is None:
+        return None
+    index = kind.number("effective_index", "")
+    middle = center * math.sqrt(max(0.0, 1 - (1 - cosine**2) / (2.0 if index is None else index) ** 2))
+    return middle - width / 2, middle + width / 2
+
+
+def unfit_band(kind: ComponentType, name: str, light: Mapping[str, tuple[float, float]]) -> Iterator[Diagnostic]:
+    """Yield a warning if a bandpass filter passes nothing of all the `light` that comes to it: by source, the
+    wavelength [nm] and the cosine of incidence."""
+    bands = {source: (band(kind, cosine), wavelength) for source, (wavelength, cosine) in light.items()}
+    for source, (own, wavelength) in sorted(bands.items()):
+        if own is None or any(b is None or b[0] <= w <= b[1] for b, w in bands.values()):
+            return
+        text = f"{name} blocks the beam of {source}: it passes {own[0]:.4g} to {own[1]:.4g} nm"
+        hint = f"take a filter for {short(wavelength)} nm, or move {name} out of the beam"
+        yield warning("outside-range", f"{text}, and the light has {short(wavelength)} nm", hint=hint, address=name)
