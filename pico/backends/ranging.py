@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -29,6 +30,12 @@ class Taken:
 
     exposure: float
     level: float
+
+
+def first_exposure(limits: tuple[float, float]) -> float:
+    """Return the exposure to begin with [ms] if that of the camera is unknown: in the middle of its decades."""
+    low, high = limits
+    return float(f"{math.sqrt(low * high):.4g}") if low > 0 and high < math.inf else max(low, 1.0)
 
 
 def next_exposure(taken: Taken, limits: tuple[float, float]) -> float | None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pico.diagnostics import PicoError, error
 from pico.drivers.protocols import Axis, Camera, Lamp, Laser, PowerMeter, Shutter
-from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.kind import Memory
 from pico.model.instruments.readout import Readout
@@ -123,15 +122,15 @@ def word(found: bool) -> str:
 
 
 class Exposed(WithoutAxis):
-    """A setting of a camera, which is told with every picture: what was set last, the lab's initial value at first."""
+    """A setting of a camera, which is sent with every picture: what was set last. At first it is `first`, what an
+    emulated camera has after power-up by its type; unknown without."""
 
-    def __init__(self, camera: Camera, memory: Memory, address: str, kind: Tunable) -> None:
-        self.instrument, self._memory, self._address = camera, memory, address
-        low = kind.range[0] if kind.range else 0.0
-        self._first = low if kind.initial is None else kind.initial
+    def __init__(self, camera: Camera, memory: Memory, address: str, first: Value | None = None) -> None:
+        self.instrument, self._memory, self._address, self._first = camera, memory, address, first
 
     async def read(self) -> ObservedValue:
-        return ObservedValue(value=self._memory.get(self._address, self._first))
+        found = self._memory.get(self._address, "" if self._first is None else self._first)
+        return UNKNOWN if found == "" else ObservedValue(value=found)
 
     async def set(self, value: Value) -> Value:
         self._memory.put(self._address, value)

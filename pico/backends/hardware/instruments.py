@@ -103,8 +103,8 @@ def add(
         found.sensors[of] = one
         for tunable in ("exposure", "gain"):
             if tunable in setup.type_of(of).tunables:
-                kept = setup.type_of(of).tunables[tunable]
-                found.tunables[f"{of}.{tunable}"] = Exposed(one, settings, f"{of}.{tunable}", kept)
+                first = setup.type_of(of).tunables[tunable].initial if settings.emulated else None
+                found.tunables[f"{of}.{tunable}"] = Exposed(one, settings, f"{of}.{tunable}", first)
     elif role == "part" and of in setup.lab.inventory:
         for key, wired in mapped(setup, about, entry, of).items():
             _put(setup, found, entry, about, one, of, key, wired, settings)

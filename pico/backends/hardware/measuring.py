@@ -82,7 +82,13 @@ class Readers:
         for setting in ("exposure", "gain"):
             if f"{component}.{setting}" in tunables:
                 value = (await tunables[f"{component}.{setting}"].read()).value
-                own[setting] = float(value) if isinstance(value, int | float) else 0.0
+                if not isinstance(value, int | float):
+                    text = f"the value of {component}.{setting} is unknown: it was never set"
+                    hint = f"`pico set {component} {setting}=...`"
+                    if setting == "exposure" and "auto_range" in kind.primitives:
+                        hint += f", or `pico do {component} auto_range`"
+                    raise PicoError(error("unknown", text, hint=hint, address=f"{component}.{setting}"))
+                own[setting] = float(value)
         counts = await self._bench.sensors[component].grab(exposure=own.get("exposure"), gain=own.get("gain"))
         sensor = Sensor(
             size=(counts.shape[1], counts.shape[0]), pitch=kind.number("pixel_size", "um") or 1.0,

@@ -12,7 +12,7 @@ from pico.backends.attempt import Failed
 from pico.backends.hardware.failing import failed
 from pico.backends.hardware.instruments import Instruments
 from pico.backends.measured import Reading
-from pico.backends.ranging import MOST, Taken, in_vain, next_exposure, taken
+from pico.backends.ranging import MOST, Taken, first_exposure, in_vain, next_exposure, taken
 from pico.diagnostics import PicoError, error
 from pico.model.diff import value_distance
 from pico.model.instruments.kind import Driven
@@ -54,11 +54,13 @@ async def ranged(
         raise Failed(error("no-device", f"no device of this bench takes pictures with {name}", address=name))
     frames, limits = list[Taken](), kind.range or (0.0, math.inf)
     while len(frames) < MOST:
-        exposure = float((await one.read()).value or limits[0])
+        exposure = (await one.read()).value
+        if not isinstance(exposure, int | float):  # it was never set, so that no picture could be taken
+            exposure = await one.set(first_exposure(limits))
         found = await image(name)
         assert found.array is not None  # it is a picture
         black, full = (float(found.settings[k] or 0.0) for k in ("black_level", "full_scale"))
-        frames.append(taken(exposure, found.array, black, full))
+        frames.append(taken(float(exposure), found.array, black, full))
         tell({"fraction": len(frames) / MOST, "phase": "exposing"})
         wanted = next_exposure(frames[-1], limits)
         if wanted is None:

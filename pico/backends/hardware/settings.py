@@ -19,6 +19,8 @@ class Settings:
 
     def __init__(self, place: BenchPlace, file: StateFile = SETTINGS) -> None:
         self._file, self._path = file, file.path(place.folder)
+        self.emulated = place.name == "emulated"
+        """Whether devices start with the `initial` values of their types; of real ones nothing is known."""
         self._lock = threading.Lock()
 
     def get(self, address: str, default: Value) -> Value:

@@ -22,11 +22,12 @@ from pico.backends.hardware.session import HardwareSession
 from pico.backends.hardware.setting import driven
 from pico.backends.hardware.settings import Settings
 from pico.diagnostics import ExitCode, PicoError, error
-from pico.drivers.driven import Emitting, Exposed, Lit, Motorized, Shut
+from pico.drivers.driven import UNKNOWN, Emitting, Exposed, Lit, Motorized, Shut
 from pico.drivers.protocols import SafetyState
 from pico.model.catalog import Axis as AxisOf
 from pico.model.catalog import Tunable
 from pico.model.instruments.conversion import conversion
+from pico.model.observation import ObservedValue
 from pico.model.operation import Operation, OperationResult, Reason
 from pico.model.setup import Setup
 from pico.model.wiring import SafetyEntry, Wired
@@ -226,20 +227,19 @@ def test_an_axis_is_read_and_set_in_the_units_of_the_lab() -> None:
     assert asyncio.run(one.read()).value == 50.0 and asyncio.run(one.home()) == 10.0
 
 
-@pytest.mark.parametrize(("kind", "first"), [
-    (Tunable(range=(0.1, 9.0)), 0.1), (Tunable(range=(0.1, 9.0), initial=3.0), 3.0), (Tunable(), 0.0),
-    (Tunable(initial=0.0, range=(0.1, 9.0)), 0.0),
-])  # fmt: skip
-def test_a_setting_of_a_camera_is_what_it_was_set_to_last(tmp_path: Path, kind: Tunable, first: float) -> None:
-    one = Exposed(Device(), Settings(bench_at(tmp_path, "hardware")), "cam.exposure", kind)  # type: ignore[arg-type]
-    assert asyncio.run(one.read()).value == first
+@pytest.mark.parametrize("first", [None, 3.0, 0.0])
+def test_a_setting_of_a_camera_is_what_it_was_set_to_last_and_unknown_at_first(
+    tmp_path: Path, first: float | None
+) -> None:
+    one = Exposed(Device(), Settings(bench_at(tmp_path, "hardware")), "cam.exposure", first)  # type: ignore[arg-type]
+    assert asyncio.run(one.read()) == (UNKNOWN if first is None else ObservedValue(value=first))
     assert asyncio.run(one.set(5.0)) == 5.0 and asyncio.run(one.read()).value == 5.0
 
 
 @pytest.mark.parametrize("one", [Shut, Emitting])
 def test_only_axes_have_a_home_and_move(one: Any, tmp_path: Path) -> None:
     settings = Settings(bench_at(tmp_path, "hardware"))
-    others = (one(Device()), Lit(Device(), settings, "a"), Exposed(Device(), settings, "b", Tunable()))  # type: ignore[arg-type]
+    others = (one(Device()), Lit(Device(), settings, "a"), Exposed(Device(), settings, "b"))  # type: ignore[arg-type]
     for other in others:
         with pytest.raises(PicoError, match="no axis"):
             asyncio.run(other.home())
