@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from pico.backends.devices import EMULATED
+from pico.backends.devices import EMULATED, HARDWARE
 from pico.diagnostics import Diagnostic, ExitCode
 
 from ..arguments import group
@@ -93,14 +93,17 @@ def read(context: typer.Context, devices: Names = None) -> int:
     from pico.backends.instruments import asked, bench_of, named
     from pico.backends.properties import properties_of
     from pico.manifest.load import find_lab
+    from pico.vision.calibration_files import accepted_axes
 
     session = Session.of(context)
     setup = bench_of(session.folder)
-    place = session.place(find_lab(session.folder))
+    root = find_lab(session.folder)
+    place = session.place(root)
     with waiting("Asking the devices"):
         rows = asked(named(setup, devices or ()), emulate=place.name == EMULATED, properties=True)
     _tell_of_another(session, place)
-    session.show(properties, properties_of(setup, rows))
+    axes = accepted_axes(root, EMULATED if place.name == EMULATED else HARDWARE)
+    session.show(properties, properties_of(setup, rows, axes))
     wrong = [d for row in rows if row.answer for d in row.answer.diagnostics]
     session.tell(wrong)
     return ExitCode.ERROR if any(one.severity == "error" for one in wrong) else ExitCode.DONE

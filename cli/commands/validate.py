@@ -15,7 +15,11 @@ HEADING = "Manifests"
 ORDER = 10
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from pico.diagnostics import Diagnostic
+    from pico.manifest.load import Manifests
+    from pico.model.calibration.results import AxisZero
 
 
 def validate(
@@ -52,7 +56,7 @@ def validate(
             *check_bolted(read.require()[0], read.source),
             *check_grips(read),
             *check_loads(read),
-            *check_set_points(read),
+            *check_set_points(read, _axes(session, root, read)),
             *check_reach(read),
             *overlapping(read),
             *check_labels(read),
@@ -70,6 +74,19 @@ def validate(
     session.tell(checked.diagnostics)
     session.show(view, checked)
     return checked.exit_code
+
+
+def _axes(session: Session, root: Path, read: Manifests) -> Mapping[str, AxisZero]:
+    """Return direction and zero of the axes of the bench that is meant, of `hardware` if that has no devices."""
+    if not (setup := read.setup) or not setup.wiring:
+        return {}
+    from pico.backends.devices import HARDWARE, SIMULATOR
+    from pico.places.bench import BenchPlace
+    from pico.vision.calibration_files import accepted_axes
+
+    place = session.place(root)
+    has_devices = isinstance(place, BenchPlace) and place.name != SIMULATOR
+    return accepted_axes(root, place.name if has_devices else HARDWARE)
 
 
 def _waiting(session: Session, root: Path) -> tuple[Diagnostic, ...]:

@@ -3,12 +3,14 @@ lab's."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 
 from pico.backends.instruments import InstrumentRow
 from pico.base.reasons import ReasonCode
 from pico.drivers.registry import driver
+from pico.model.calibration.results import AxisZero
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.mapping import mapped
@@ -35,21 +37,26 @@ class PropertyRow:
     lab_unit: str = ""
 
 
-def properties_of(setup: Setup, rows: Sequence[InstrumentRow]) -> list[PropertyRow]:
+def properties_of(
+    setup: Setup, rows: Sequence[InstrumentRow], axes: Mapping[str, AxisZero] = MappingProxyType({})
+) -> list[PropertyRow]:
     """Return a row a property of the devices that answered, and one more for each further name that the lab has for it;
-    one of a device that only says in words what it reads has that as its reply."""
-    return [row for found in rows if found.answer is not None and found.answer.identity for row in _of(setup, found)]
+    one of a device that only says in words what it reads has that as its reply. `axes` as in `conversion_of`."""
+    there = (found for found in rows if found.answer is not None and found.answer.identity)
+    return [row for found in there for row in _of(setup, found, axes)]
 
 
-def _of(setup: Setup, row: InstrumentRow) -> Iterator[PropertyRow]:
+def _of(setup: Setup, row: InstrumentRow, axes: Mapping[str, AxisZero]) -> Iterator[PropertyRow]:
     assert row.answer is not None
     if not row.answer.readouts and row.answer.reads:
         yield PropertyRow(device=row.name, property=row.kind, raw=row.answer.reads)
     for name, readout in row.answer.readouts.items():
-        yield from _names(setup, row, name, readout)
+        yield from _names(setup, row, name, readout, axes)
 
 
-def _names(setup: Setup, row: InstrumentRow, name: str, readout: Readout) -> Iterator[PropertyRow]:
+def _names(
+    setup: Setup, row: InstrumentRow, name: str, readout: Readout, axes: Mapping[str, AxisZero]
+) -> Iterator[PropertyRow]:
     plain = PropertyRow(
         device=row.name, property=name, raw=readout.raw.strip(), value=readout.value, unit=readout.unit,
         unknown=readout.unknown, why=readout.why,
@@ -60,7 +67,7 @@ def _names(setup: Setup, row: InstrumentRow, name: str, readout: Readout) -> Ite
         return
     wired = {key: one for key, one in mapped(setup, about, entry, row.of).items() if one.property == name}
     for key, one in wired.items():
-        made = conversion_of(setup, about, entry, row.of, key, one)
+        made = conversion_of(setup, about, entry, row.of, key, one, axes)
         yield replace(
             plain, address=f"{row.of}.{key}", lab_value=_in_lab(about.kind, readout, made), lab_unit=made.unit
         )

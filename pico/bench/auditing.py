@@ -24,6 +24,9 @@ from pico.policy.goals import GoalRecord
 from pico.policy.judging.case import PlanCase
 
 if TYPE_CHECKING:
+    from pico.model.calibration.results import AxisZero
+
+if TYPE_CHECKING:
     from pico.planning.alignment import Alignment
 
 T = TypeVar("T")
@@ -44,11 +47,16 @@ def case_of(opened: Opened, plan: Plan, seen: Observation) -> PlanCase:
 
         return standing(opened, seen, state, wanted=True)
 
+    def axes() -> Mapping[str, AxisZero]:
+        from pico.vision.calibration_files import accepted_axes
+
+        return accepted_axes(opened.root, plan.backend)
+
     setup = opened.setup
     limited = plan.operations and any(part.dose_budget for part in setup.lab.inventory.values())
     doses = opened.wait(opened.edge.doses()) if limited else ()
     goals = GoalRecord(opened.folder.state_now, stand)
-    return PlanCase(setup, plan, seen, doses=doses, goals=goals, recall=recall)
+    return PlanCase(setup, plan, seen, doses=doses, goals=goals, recall=recall, axes=axes)
 
 
 def _kept(file: StateFile, root: Path, key: str, read: Callable[[Any], T], find: Callable[[], T] | None) -> T | None:

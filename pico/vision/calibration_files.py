@@ -7,12 +7,13 @@ own, and no other bench does.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from pico.diagnostics import Diagnostic, PicoError, error, warning
 from pico.disk import write_whole
-from pico.model.calibration.results import ACCEPTED
+from pico.model.calibration.results import ACCEPTED, AxisZero
 from pico.vision.arm import ArmOffsets
 from pico.vision.calibration import Calibration, calibration_from_json, digest_of
 
@@ -139,6 +140,16 @@ def known_arms(root: Path, bench: str) -> dict[str, ArmOffsets]:
     `read_calibration`."""
     found = read_calibration(root, bench)
     return {name: arm.offsets for name, arm in found.arms.items()} if found else {}
+
+
+def accepted_axes(root: Path, bench: str) -> Mapping[str, AxisZero]:
+    """Return direction and zero of axes by the calibration of a bench, by the address of the tunable; none without one,
+    or if the bench refuses it: who sends set-points then says so."""
+    try:
+        found = read_calibration(root, bench)
+    except PicoError:
+        return {}
+    return found.axes if found else {}
 
 
 def accepted_arms(root: Path, bench: str) -> dict[str, ArmOffsets]:

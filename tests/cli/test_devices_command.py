@@ -6,13 +6,20 @@ import json
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from commanding import Pico
 
+from pico.backends.instruments import bench_of, listed, named
+from pico.backends.properties import properties_of
 from pico.drivers import registry
+from pico.drivers.checking import Answer
+from pico.drivers.protocols import Identity
 from pico.drivers.registry import driver, known
+from pico.model.calibration.results import AxisZero
+from pico.model.instruments.readout import Readout
 from pico.resources import labs_dir
 
 DEVICES = """\
@@ -148,3 +155,19 @@ def test_neither_the_core_nor_the_list_of_devices_imports_a_vendors_library(lab:
         [sys.executable, "-c", code, str(lab), ",".join(LIBRARIES)], capture_output=True, text=True, check=True
     )
     assert done.stdout.splitlines()[-1] == "loaded: []"
+
+
+@pytest.mark.parametrize(("axes", "angle"), [
+    ({}, 30.0), ({"p1.angle": AxisZero(direction=-1, zero=12.5, sigma=0.1)}, 342.5),
+])  # fmt: skip
+def test_a_mount_reads_the_angle_that_its_calibration_makes_of_it(
+    lab: Path, axes: dict[str, AxisZero], angle: float
+) -> None:
+    setup = bench_of(lab)
+    (row,) = listed(named(setup, ["p1_mount"]))
+    read = Answer(
+        identity=Identity(vendor="Thorlabs", model="ELL14", serial="1"),
+        readouts={"angle": Readout(value=30.0, unit="deg", raw="30")},
+    )
+    (found,) = properties_of(setup, [replace(row, answer=read)], axes)
+    assert (found.value, found.address, found.lab_value) == (30.0, "p1.angle", pytest.approx(angle))

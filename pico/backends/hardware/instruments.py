@@ -116,9 +116,7 @@ def _put(
 ) -> None:  # fmt: skip
     """Put what sets or reads a tunable or measurable where the lab has it."""
     kind, address = kind_of(about.kind), f"{of}.{key}"
-    conversion = conversion_of(setup, about, entry, of, key, wired)
-    if address in found.axes:
-        conversion = found.axes[address].corrects(conversion)
+    conversion = conversion_of(setup, about, entry, of, key, wired, found.axes)
     point = Point(
         instrument=one, address=address, property=wired.property, conversion=conversion,
         tunable=setup.type_of(of).tunables.get(key), memory=settings,

@@ -15,6 +15,7 @@ from pico.places.bench import BenchPlace
 if TYPE_CHECKING:
     from pico.backends.hardware.guard.note import Ended
     from pico.backends.hardware.guard.verdict import Trip
+    from pico.model.calibration.results import AxisZero
 
 
 class Apparatus:
@@ -51,6 +52,12 @@ class Apparatus:
     def usual(self) -> Setup:
         """The setup of the bench at its own speed, whatever speed a run goes at."""
         return self._usual[0] if self._usual is not None else self.setup
+
+    def calibrated_axes(self) -> Mapping[str, AxisZero]:
+        """Return direction and zero of the bench's axes, by the address of the tunable."""
+        from pico.vision.calibration_files import accepted_axes
+
+        return accepted_axes(self.place.root, self.place.name)
 
     @property
     def has_samples(self) -> bool:

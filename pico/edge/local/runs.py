@@ -172,7 +172,7 @@ class Runs:
         own = self._apparatus
         self._licensing.hear(job.holder.removeprefix(f"{RECIPE} "))
         able = replace(await own.describe(), lab_digest=own.usual.at_speed(job.speed).digest())
-        require_permitted(PlanCase(own.setup, job.plan, able=able))
+        require_permitted(PlanCase(own.setup, job.plan, able=able, axes=own.calibrated_axes))
 
         def prepare() -> None:
             own.go_at(job.speed)
@@ -187,7 +187,8 @@ class Runs:
 
         able, seen = await self._apparatus.describe(), await self._sight.observe()
         doses = self._licensing.doses_until(seen) if plan.operations else ()
-        require_permitted(PlanCase(self._apparatus.setup, plan, seen, able, doses))
+        own = self._apparatus
+        require_permitted(PlanCase(own.setup, plan, seen, able, doses, axes=own.calibrated_axes))
         return seen, able
 
     def _step_of(self, job: Job) -> Lease:

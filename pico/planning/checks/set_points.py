@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 from pico.diagnostics import Diagnostic, PicoError, error
 from pico.manifest.checks.devices import declaration
 from pico.manifest.load import Manifests
 from pico.manifest.text.places import find, where
+from pico.model.calibration.results import AxisZero
 from pico.model.instruments.conversion import Conversion
 from pico.model.instruments.conversions import conversion_of
 from pico.model.instruments.mapping import mapped
@@ -18,6 +20,7 @@ from pico.model.setup import Setup
 from pico.planning.checks.target import Source, no_source
 
 SET_POINT = "set-point"
+_NONE: Mapping[str, AxisZero] = MappingProxyType({})
 
 
 @dataclass(frozen=True)
@@ -30,9 +33,9 @@ class Axis:
     conversion: Conversion
 
 
-def axes_of(setup: Setup) -> dict[str, Axis]:
+def axes_of(setup: Setup, calibrated: Mapping[str, AxisZero] = _NONE) -> dict[str, Axis]:
     """Return by address the tunables that the wired devices set and whose limits are known; those of drivers that are
-    not installed are left out."""
+    not installed are left out. `calibrated`: direction and zero of axes, by address, as what is sent has them."""
     found: dict[str, Axis] = {}
     for device, entry in setup.wiring.devices.items() if setup.wiring else ():
         component, about = entry.of or device, declaration(entry.driver)[0]
@@ -42,7 +45,7 @@ def axes_of(setup: Setup) -> dict[str, Axis]:
         try:
             for name, wired in mapped(setup, about, entry, component).items():
                 if name in tunables:
-                    made = conversion_of(setup, about, entry, component, name, wired)
+                    made = conversion_of(setup, about, entry, component, name, wired, calibrated)
                     if made.limits is not None:
                         found[f"{component}.{name}"] = Axis(f"{component}.{name}", device, wired.property, made)
         except (PicoError, KeyError, ValueError):
@@ -50,11 +53,11 @@ def axes_of(setup: Setup) -> dict[str, Axis]:
     return found
 
 
-def check_set_points(read: Manifests) -> Iterator[Diagnostic]:
+def check_set_points(read: Manifests, calibrated: Mapping[str, AxisZero] = _NONE) -> Iterator[Diagnostic]:
     """Yield an error for each value of the state that its device can't be told, and for each axis whose device reaches
-    nothing of its range."""
+    nothing of its range; `calibrated` as in `axes_of`."""
     setup, state = read.require()
-    for address, axis in sorted(axes_of(setup).items()):
+    for address, axis in sorted(axes_of(setup, calibrated).items()):
         component, _, tunable = address.partition(".")
         span = setup.type_of(component).tunables[tunable].range
         if span is not None and not _reaches_any(axis, span):
@@ -65,9 +68,12 @@ def check_set_points(read: Manifests) -> Iterator[Diagnostic]:
                 yield wrong
 
 
-def refused(setup: Setup, operations: Sequence[Operation], source: Source = no_source) -> Iterator[Diagnostic]:
-    """Yield an error for each set-point of a plan that its device can't be told."""
-    axes = axes_of(setup) if any(op.primitive == "set" for op in operations) else {}
+def refused(
+    setup: Setup, operations: Sequence[Operation], source: Source = no_source,
+    calibrated: Mapping[str, AxisZero] = _NONE,
+) -> Iterator[Diagnostic]:  # fmt: skip
+    """Yield an error for each set-point of a plan that its device can't be told; `calibrated` as in `axes_of`."""
+    axes = axes_of(setup, calibrated) if any(op.primitive == "set" for op in operations) else {}
     for op in operations:
         axis = axes.get(f"{op.component}.{op.arguments.get('tunable')}") if op.primitive == "set" else None
         if axis is not None and (wrong := _refusal(axis, op.arguments["to"], source)):
@@ -91,14 +97,11 @@ def _refusal(axis: Axis, value: Value, source: Source) -> Diagnostic | None:
 
 
 def _reaches_any(axis: Axis, span: tuple[float, float]) -> bool:
-    """Return whether the device reaches any number of a range: as a map is monotonic, one of its ends, or a point
-    between them."""
+    """Return whether the device reaches any number of a range: as a map is monotonic, an end of the range lies within
+    the limits, or an end of the limits within the range; of an angle by whole turns."""
     made, (low, high) = axis.conversion, span
-    if made.reaches(low) or made.reaches(high):
-        return True
-    ends = sorted(made.wired.to_device(end, made.unit) for end in span)
     assert made.limits is not None
-    return ends[0] <= made.limits[0] and made.limits[1] <= ends[1]
+    return made.reaches(low) or made.reaches(high) or any(low <= made.to_lab(end) <= high for end in made.limits)
 
 
 def _beyond_all(read: Manifests, axis: Axis, span: tuple[float, float]) -> Diagnostic:

@@ -15,6 +15,7 @@ from pico.model.setup import Setup
 
 if TYPE_CHECKING:
     from pico.backends.device import Capabilities
+    from pico.model.calibration.results import AxisZero
     from pico.model.trace.dose import Dose
     from pico.optics.audit.findings import Audit
     from pico.policy.audit import Lit
@@ -79,6 +80,8 @@ class PlanCase:
     goals: GoalRecord | None = None
     # What is known of light and tolerances already.
     recall: Recall = recall_nothing
+    # Direction and zero of axes as the bench is calibrated, by the address of the tunable.
+    axes: Callable[[], Mapping[str, AxisZero]] = dict
 
     @property
     def seen(self) -> Observation:

@@ -50,7 +50,7 @@ def _set_points(case: PlanCase) -> Judgment:
         return Judgment()
     from pico.planning.checks.set_points import refused
 
-    wrong = tuple(refused(case.setup, case.plan.operations))
+    wrong = tuple(refused(case.setup, case.plan.operations, calibrated=case.axes()))
     return Judgment(diagnostics=wrong, exit_code=ExitCode.IMPOSSIBLE)
 
 
