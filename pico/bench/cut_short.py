@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from pico.runs.journal import RunRecord
 
 _RECOUNTED = (
-    "its count was gone, and was made anew of the journal, without the light between operations: lower `dose_budget` "
-    "of {} in lab.yaml by that light"
+    "its count was made anew of the journal, without the light between operations, or light fell on it that was not "
+    "followed to its end: lower `dose_budget` of {} in lab.yaml by that light"
 )
 
 
@@ -63,7 +63,9 @@ def told_first(opened: Opened, seen: Observation) -> tuple[Diagnostic, ...]:
 
 def _dose(one: Dose) -> Iterator[Diagnostic]:
     now = f"{one.power:.3g} mW fall on it now" if one.power else ""
-    if one.spent or one.power or one.budget is not None:
+    if one.unknown:
+        now = f"how much falls on it now is unknown: {one.unknown}"
+    if one.spent or one.unknown or one.power or one.budget is not None:
         left = "" if one.left is None else f"; {one.left:.4g} mJ are left"
         hint = _RECOUNTED.format(one.component) if one.at_least else ""
         yield Diagnostic("note", "dose", f"{one.said}{left}", detail=now, hint=hint, address=one.component)

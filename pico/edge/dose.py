@@ -25,28 +25,33 @@ if TYPE_CHECKING:
 @dataclass(frozen=True)
 class Ledger:
     """What samples had at a time of the bench's clock (`at` [s]): `spent` [mJ], and the `power` [mW] on them, by their
-    names. `least`: samples that had at least that, for they were counted again from the journal."""
+    names. `least`: samples that had at least that, for they were counted again from the journal, or light fell on them
+    that was not followed to its end. `unknown`: why more than `power` may fall on some now."""
 
     at: float | None = None
     spent: dict[str, float] = field(default_factory=dict)
     power: dict[str, float] = field(default_factory=dict)
     least: frozenset[str] = frozenset()
+    unknown: Mapping[str, str] = field(default_factory=dict)
 
     def until(self, setup: Setup, seen: Observation) -> Ledger:
         """Return it brought up to what is seen now: since then each sample had the greater of both powers. A clock that
         began anew, with another simulated world, counts nothing."""
         held = dose.samples(setup)
-        now = {held[part]: power for part, power in dose.powers(setup, seen).items()}
+        falling, beyond = dose.falling(setup, seen)
+        now = {held[part]: power for part, power in falling.items()}
+        unknown = {held[part]: why for part, why in beyond.items()}
         seconds = max(0.0, seen.time - self.at) if self.at is not None else 0.0
         more = {name: max(power, self.power.get(name, 0.0)) * seconds for name, power in now.items()}
         spent = {**self.spent, **{name: self.spent.get(name, 0.0) + one for name, one in more.items()}}
-        return Ledger(seen.time, spent, now, self.least)
+        return Ledger(seen.time, spent, now, self.least | unknown.keys(), unknown)
 
     def doses(self, setup: Setup) -> tuple[Dose, ...]:
         """Return what each sample of a bench has had, and gets."""
         return tuple(
             Dose(sample=sample, component=part, spent=self.spent.get(sample, 0.0), power=self.power.get(sample, 0.0),
-                 budget=setup.lab.inventory[part].dose_budget, at_least=sample in self.least or None)
+                 budget=setup.lab.inventory[part].dose_budget, at_least=sample in self.least or None,
+                 unknown=self.unknown.get(sample))
             for part, sample in dose.samples(setup).items()
         )  # fmt: skip
 

@@ -105,7 +105,8 @@ class Doing:
         from pico.policy.dose import over
 
         doses = self.bench.wait(self.bench.edge.doses()) if seconds > 0 else ()
-        if wrong := [found for one in doses if one.power > 0 for found in over(one, one.power * seconds, seconds)]:
+        given = [(one, math.inf if one.unknown else one.power * seconds) for one in doses]
+        if wrong := [found for one, mj in given if mj > 0 for found in over(one, mj, seconds, one.unknown or "")]:
             raise PicoError(wrong, ExitCode.DENIED)
         while seconds > 0:
             part = min(seconds, self.every)

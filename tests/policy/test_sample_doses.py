@@ -7,6 +7,7 @@ was spent counts; a source that is not known to be dark shines; nothing is refus
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
@@ -14,7 +15,13 @@ from typing import Any
 import pytest
 from laser_lab import UNKNOWN, bench, carry, commanded, observed, set_to
 
+from pico.edge.dose import Ledger
+from pico.manifest.catalog import load_catalog
+from pico.model.catalog import Parameter
+from pico.model.lab import Part
+from pico.model.observation import ObservedComponent
 from pico.model.operation import Operation, Reason
+from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.model.trace.dose import Dose
 from pico.policy import dose
@@ -170,3 +177,43 @@ def test_a_sample_that_is_carried_into_or_out_of_the_beam_is_followed(into: bool
 
 def carried() -> Any:
     return observed().components["holder"].pose
+
+
+PLATE = replace(
+    load_catalog()["plate_beam_splitter"], name="plate",
+    parameters={"reflectance": Parameter(value=0.9), "transmittance": Parameter(value=0.1),
+                "thickness": Parameter(value=3.0, unit="mm")},
+)  # fmt: skip
+
+
+def resonant(budget: float | None = 10.0) -> tuple[Setup, Any]:
+    """The bench with two plates that face each other before and behind the sample: light goes to and fro there."""
+    setup = held(budget)
+    at = setup.lab.inventory
+    plates = {"c1": Pose(400, 420), "c2": Pose(640, 420, 180)}
+    setup = replace(
+        setup, catalog={**setup.catalog, "plate": PLATE},
+        lab=replace(setup.lab, inventory={**at, **{n: Part(type="plate", pose=p) for n, p in plates.items()}}),
+    )  # fmt: skip
+    return setup, plates
+
+
+@pytest.mark.parametrize("open", [True, False])
+def test_light_that_was_not_followed_to_its_end_may_be_too_much(open: bool) -> None:
+    setup, plates = resonant()
+    seen = observed(laser=(ON if open else {}) | {"power": 2.0})
+    parts = {n: ObservedComponent(pose=p) for n, p in plates.items()}
+    seen = replace(seen, components={**seen.components, **parts})
+    _, beyond = dose.falling(setup, seen)
+    assert ("followed for 256 stretches" in beyond.get("holder", "")) is open
+    now = replace(one(), unknown=beyond.get("holder"))
+    lit = dose.refused(setup, seen, [now], timed([(OPENED, 0.0, 1e-6)]))
+    assert "how much more this would give it is unknown: the beam of laser was followed for 256" in lit[0].summary
+    assert not dose.refused(setup, seen, [now], timed([(SHUT, 0.0, 5.0)])), "what darkens is never refused"
+    assert not dose.refused(setup, seen, [replace(now, budget=None)], timed([(OPENED, 0.0, 1.0)]))
+    ledger = Ledger(at=0.0).until(setup, seen)
+    assert (ledger.least == {"W1"}) is open and all(map(math.isfinite, ledger.spent.values()))
+    (told,) = ledger.doses(setup)
+    assert bool(told.unknown) is bool(told.at_least) is open
+    after = replace(ledger, power={}).until(setup, replace(observed(), time=10.0))
+    assert (after.doses(setup)[0].at_least or False) is open, "what it had stays without a bound"

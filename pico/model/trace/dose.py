@@ -8,7 +8,8 @@ from pico.model.record import record
 @record
 class Dose:
     """What the `sample` in a `component` has had [mJ], of a `budget` where it has one, and the `power` that falls on it
-    now [mW]. `at_least`: it had that much or more, for what the bench had counted was gone."""
+    now [mW]. `at_least`: it had that much or more, for what the bench had counted was gone, or light fell on it that
+    was not followed to its end. `unknown`: why more than `power` may fall on it now."""
 
     sample: str
     component: str
@@ -16,6 +17,7 @@ class Dose:
     budget: float | None = None
     power: float = 0.0
     at_least: bool | None = None
+    unknown: str | None = None
 
     @property
     def left(self) -> float | None:
