@@ -64,7 +64,8 @@ def test_a_new_world_has_every_part_at_home_every_axis_homed_and_the_arm_parked(
 @pytest.mark.parametrize(
     ("kind", "first"),
     [
-        (Tunable(range=(2, 9)), 2), (Tunable(range=(2, 9), initial=5.0), 5.0),
+        (Tunable(range=(2, 9)), 5.5), (Tunable(range=(2, 9), initial=2.0), 2.0),
+        (Tunable(range=(0.1, 1000)), 10.0), (Tunable(range=(0, 1000)), 500.0), (Tunable(range=(-70, 70)), 0.0),
         (Tunable(range=(2, 9), mover="person"), 5.5),
         (Tunable(datatype="bool"), False), (Tunable(datatype="bool", initial=True), True),
         (Tunable(datatype="choice", choices=("a", "b")), "a"),
@@ -73,7 +74,7 @@ def test_a_new_world_has_every_part_at_home_every_axis_homed_and_the_arm_parked(
         (Tunable(range=(2, 9), axis=Axis(kind="homed", speed=1, home=4)), 4),
     ],
 )  # fmt: skip
-def test_a_value_starts_as_its_type_says_or_where_it_is_safest(kind: Tunable, first: Value) -> None:
+def test_a_value_starts_as_its_type_says_or_in_the_middle_of_its_range(kind: Tunable, first: Value) -> None:
     assert initial_value(kind) == first
 
 

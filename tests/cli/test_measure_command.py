@@ -170,6 +170,8 @@ def test_other_instruments_measure_the_beam_too(
     own = "  cam:\n    exposure: 10\n" if kind == "spectrometer" else ""
     table.write_text(f"{before}{own}{rest}\n")
     assert pico("set", "p1.angle", "0", "-y").code == 0
+    if kind == "spectrometer":
+        assert pico("set", "cam.exposure", "1", "-y").code == 0
     assert pico("set", "laser.emission", "true", "-y").code == 0
     found = pico("measure", f"cam.{measurable}", "--json")
     assert ("value" not in found.data) is (dark is None)

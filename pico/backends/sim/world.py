@@ -5,6 +5,7 @@ A new world starts from the homes of the inventory, never from a laboratory stat
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import field, replace
 from typing import Any
@@ -136,13 +137,14 @@ def shapes_of(setup: Setup) -> dict[str, RememberedShape]:
 
 
 def initial_values(kind: ComponentType) -> dict[str, ObservedValue]:
-    """Return what the tunables of a type read when the world is new: axes are homed, electronics at their default."""
+    """Return what the tunables of a type read when the world is new: axes are homed, and simulated devices tell what
+    they are set to after power-up."""
     return {name: ObservedValue(value=initial_value(tunable)) for name, tunable in sorted(kind.tunables.items())}
 
 
 def initial_value(tunable: Tunable) -> Value:
-    """Return the `initial` value, else the home of an axis, the center of a range that a person sets, the low end of
-    another one, false, `closed`, or the first choice."""
+    """Return where a tunable stands after power-up: at its `initial` value, the home of an axis, false, `closed`, the
+    first choice, or in the middle of its range, of its decades if it has more than two."""
     if tunable.initial is not None:
         return tunable.initial
     if tunable.datatype == "bool":
@@ -154,7 +156,7 @@ def initial_value(tunable: Tunable) -> Value:
     if tunable.range is None:
         return 0.0
     low, high = tunable.range
-    return (low + high) / 2 if tunable.mover == "person" else low
+    return float(f"{math.sqrt(low * high):.3g}") if 0 < 100 * low < high else (low + high) / 2
 
 
 def put_down(setup: Setup, world: World, name: str, goal: Pose, one: PlacementError) -> tuple[Pose, Seat]:
