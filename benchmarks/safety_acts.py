@@ -51,6 +51,7 @@ class Act:
 
     def optimizing(self) -> None:
         """Seek the exposure at which the camera is brightest, again and again."""
+        list(self.bench.run(self.bench.single("camera", "set", exposure=1.0)))
         while True:
             goals = self.bench.goals
             self.run(goals.plan(goals.chosen(("bright",))), "operation_progress")

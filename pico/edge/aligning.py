@@ -31,6 +31,7 @@ from pico.optimize.problem import Aim, Nominal, Problem, Variable, nominal_from_
 from pico.optimize.registry import made
 from pico.places.bench import BenchPlace
 from pico.planning.darkness import unlit
+from pico.planning.unknown_values import unknown_start
 
 if TYPE_CHECKING:
     from pico.optimize.problem import Algorithm
@@ -447,7 +448,7 @@ def _variables(setup: Setup, seen: Observation, goal: Goal, known: Nominal | Non
         part = seen.components.get(component)
         live = part.values.get(tunable) if part else None
         if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
-            raise PicoError(error("goal", f"nobody knows {address}, so that nobody could go back to it"))
+            raise PicoError(unknown_start(setup, address, "goal"))
         start = float(live.value)
         reach = known.reach(n) if known else None
         low, high = searched(kind, (low, high), start)

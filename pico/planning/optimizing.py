@@ -24,6 +24,7 @@ from pico.planning.goal_light import goal_light
 from pico.planning.measuring import Need, granted, kept_shut, needed, setting
 from pico.planning.parts.setdown import park_operation
 from pico.planning.sought import Sought, arguments_of
+from pico.planning.unknown_values import unknown_start
 
 if TYPE_CHECKING:
     from pico.optics.nominal.feeding import Right
@@ -68,7 +69,7 @@ def optimizing(
 
     `before`: operations that come first, after which the bench will be as `seen`. Each comes only after those of
     `before` and of the earlier goals that its light depends on. Raises PicoError where a tunable of a goal is not
-    known, so that nobody could go back to it.
+    known, for it is set back.
     """
     return _Block(setup, seen, turns, motion, before).made()
 
@@ -324,12 +325,9 @@ def live_number(seen: Observation, address: str) -> float | None:
 def _from(setup: Setup, seen: Observation, name: str, goal: Goal) -> Mapping[str, float]:
     found = {}
     for address in goal.tunables:
-        component, _, tunable = address.partition(".")
         live = live_number(seen, address)
         if live is None:
-            hint = f"`pico do {component} home {tunable}` finds out" if component in seen.components else ""
-            text = f"nobody knows {address}, so that nobody could go back to it"
-            raise PicoError(error("goal", text, hint=hint, address=address))
+            raise PicoError(unknown_start(setup, address, "goal"))
         found[address] = live
         low, high = goal.tunables[address]
         if not low <= live <= high:

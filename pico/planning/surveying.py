@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from pico.diagnostics import PicoError, error
+from pico.diagnostics import PicoError
 from pico.model.observation import Observation, astray
 from pico.model.operation import Operation, Reason, new_id
 from pico.model.quantities import Value
@@ -16,6 +16,7 @@ from pico.model.setup import Setup
 from pico.motion.types import Motion
 from pico.planning.measuring import granted, kept_shut, measuring, needed, setting
 from pico.planning.parts.setdown import park_operation
+from pico.planning.unknown_values import unknown_start
 
 TAKES = 0.6
 """What a measurement takes [s]."""
@@ -29,7 +30,7 @@ def surveying(
     """Return the operations of a survey: arms that stand out park, what is measured gets what it needs, all is read and
     set back; frames in the `dark` of cameras come last.
 
-    Raises PicoError where a tunable that is to be set is not known, so that nobody could go back to it.
+    Raises PicoError if a tunable that is to be set is not known, for it is set back.
     """
     begin = {a: _known(setup, seen, a) for a in sorted({a for _, at in shots for a in at})}
     out = [park_operation(setup, seen, robot, (), motion) for robot in astray(setup, seen)]
@@ -92,7 +93,5 @@ def _known(setup: Setup, seen: Observation, address: str) -> float:
     component, _, tunable = address.partition(".")
     live = seen.components[component].values.get(tunable)
     if live is None or live.status == "unknown" or not isinstance(live.value, int | float):
-        hint = f"`pico do {component} home {tunable}` finds out"
-        raise PicoError(error("survey", f"nobody knows {address}, so that nobody could go back to it", hint=hint,
-                              address=address))  # fmt: skip
+        raise PicoError(unknown_start(setup, address, "survey"))
     return float(live.value)
