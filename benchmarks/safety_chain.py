@@ -140,8 +140,10 @@ class Chain:
                 for tunable, value in (("emission", "true"), ("shutter", "open")):
                     if tunable in bench.setup.type_of(name).tunables:
                         report = bench.apply(bench.single(name, "set", **{tunable: value}))
-                        assert report.outcome == "done", report
-        assert all(self.ask("lit").values())
+                        if report.outcome != "done":
+                            raise NotThere(f"{name} does not emit: {report}")
+        if not all(self.ask("lit").values()):
+            raise NotThere(f"light ended before the fault: {self.ask('lit')}")
 
     @contextmanager
     def acting(self, state: str) -> Iterator[subprocess.Popen[str] | None]:
