@@ -7,10 +7,22 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
-from pico.vision.bundle import LEAST, LENS, LENS_STEPS, MISFIT, POSE_STEPS, intrinsics, lens, with_lens
+from pico.vision.bundle import (
+    CORNER_NOISE,
+    FINEST,
+    LEAST,
+    LENS,
+    LENS_STEPS,
+    MISFIT,
+    POSE_STEPS,
+    intrinsics,
+    lens,
+    with_lens,
+)
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BoardView
-from pico.vision.least_squares import solve
+from pico.vision.datums import SeenDatums
+from pico.vision.least_squares import noise_by_group, solve
 from pico.vision.rigid import motion, moved, rotation
 
 if TYPE_CHECKING:
@@ -21,9 +33,6 @@ if TYPE_CHECKING:
 
 EVERY = 4
 """Every so many pictures one is held out of the fit that is tried on it."""
-DATUM_NOISE = 0.05
-"""One standard deviation of a corner of a datum [pixels], at least."""
-
 LOOSER = 1.5
 """By how much the numbers of a lens are let go further than each is known alone: their errors go together."""
 
@@ -124,28 +133,31 @@ def _sigmas(views: Sequence[BoardView], camera: CameraModel, poses: Sequence[Arr
     return np.sqrt(np.maximum(np.diag(np.linalg.pinv(normal)), 0.0) * variance)
 
 
-def place_of(points: Array, pixels: Array, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
-    """Return where a camera stands that sees `points` (n, 3) [mm] of the table at `pixels` (n, 2). Its lens is known to
-    `lens_sigmas` (n,), and is fitted within these, so that the place is no more certain than the lens lets it be."""
+def place_of(datums: SeenDatums, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
+    """Return where a camera stands that sees `datums`. Its lens is known to `lens_sigmas` (n,), and is fitted within
+    these, so that the place is no more certain than the lens lets it be."""
     import numpy as np
 
     numbers, sure = lens(start), np.maximum(np.asarray(lens_sigmas, np.float64) * LOOSER, 1e-12)
 
-    many = len(numbers)
+    many, groups = len(numbers), np.zeros(2 * len(datums.corners), int)
+    noise: Array = np.ones(1)
 
     def at(change: Array) -> CameraModel:
         return with_lens(replace(start, pose=moved(start.pose, change[many:])), numbers + change[:many] * sure)
 
-    def residuals(change: Array) -> Array:
-        off = np.nan_to_num(at(change).project(points) - pixels, nan=1e4).ravel() / DATUM_NOISE
-        return np.concatenate([off, change[:many]])
+    def off(change: Array) -> Array:
+        return np.nan_to_num(at(change).project(datums.corners) - datums.pixels, nan=1e4)
 
-    found = solve(residuals, np.zeros(many + 6), np.array((1e-2,) * many + POSE_STEPS))
-    off = at(found.parameters).project(points) - pixels
-    left = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
-    free = max(1, 2 * len(points) - 6)
-    worse = max(1.0, float(np.sqrt(np.sum((off / DATUM_NOISE) ** 2) / free)))
-    sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0)) * worse
+    def residuals(change: Array) -> Array:
+        return np.concatenate([datums.whitened(off(change)) / noise, change[:many]])
+
+    steps = np.array((1e-2,) * many + POSE_STEPS)
+    found = solve(residuals, np.zeros(many + 6), steps)
+    noise = np.maximum(noise_by_group(found, noise, groups, np.zeros(1, int)), FINEST / CORNER_NOISE)
+    found = solve(residuals, found.parameters, steps)
+    left = float(np.sqrt(np.mean(np.sum(off(found.parameters) ** 2, axis=1))))
+    sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
     return FoundPlace(at(found.parameters), np.concatenate([sigmas[:many] * sure, sigmas[many:]]), left)
 
 

@@ -10,7 +10,8 @@ from painted import bumped, stereo
 from test_calibration import BENCH, NOISE, poses, seen, table
 
 from pico.diagnostics import PicoError
-from pico.vision.bundle import LENS, bundle, datums_in, lens
+from pico.vision.bundle import LENS, bundle, lens
+from pico.vision.datums import datums_in
 from pico.vision.lens import board_in, lens_of, place_of
 from pico.vision.rigid import apart, rotation_vector
 
@@ -35,7 +36,7 @@ def test_lens_and_place_are_found_within_their_error_bars() -> None:
         true = true_of(start, rng)
         found = lens_of([seen(true, pose, rng) for pose in poses(rng, 14)], start)
         assert found.residual == pytest.approx(NOISE * 2**0.5, rel=0.25) and found.held_out < 1.5 * found.residual
-        placed = place_of(*datums_in(BENCH, table(true, rng)), found.camera, found.sigmas)
+        placed = place_of(datums_in(BENCH, table(true, rng), found.camera), found.camera, found.sigmas)
         assert placed.residual < 0.1
         pulls.append(np.concatenate([(lens(found.camera) - lens(true)) / found.sigmas,
                                      off_by(placed.camera, true)[LENS:] / placed.sigmas[LENS:]]))  # fmt: skip

@@ -11,9 +11,9 @@ from pico.bench.calibrating.at_table import AtTable
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
-from pico.vision.bundle import LENS, bundle, datums_in, lens
+from pico.vision.bundle import LENS, bundle, lens
 from pico.vision.camera import CameraModel
-from pico.vision.datums import ENOUGH, datum_corners
+from pico.vision.datums import ENOUGH, SeenDatums, datum_corners, datums_in
 from pico.vision.lens import place_of
 from pico.vision.markers import Markers, detect
 
@@ -111,8 +111,8 @@ def _alone(
     placed, provenance, residuals, lines, worst = {}, dict[str, Provenance](), {}, list[str](), 0.0
     for name in cameras:
         camera, how = known[name]
-        points, pixels = _require_datums(at, name, seen[name])
-        found = place_of(points, pixels, camera, _sigmas_of(camera, how))
+        datums = _require_datums(at, name, seen[name], camera)
+        found = place_of(datums, camera, _sigmas_of(camera, how))
         out = _held_out(at, seen[name], found.camera, found.sigmas)
         placed[name], residuals[name] = found.camera, round(found.residual, 4)
         provenance[f"intrinsics/{name}"] = how
@@ -120,19 +120,19 @@ def _alone(
             PROCEDURE, at.devices_of(name), residual=found.residual, held_out=out, unit="px",
             uncertainty=_of_pose(found.sigmas[-6:]),
         )  # fmt: skip
-        high = float(np.mean(np.linalg.norm(points - found.camera.pose[:3, 3], axis=1)))
+        high = float(np.mean(np.linalg.norm(datums.corners - found.camera.pose[:3, 3], axis=1)))
         worst = max(worst, max(found.residual, 0.05) * high / float(found.camera.matrix[0, 0]))
         lines.append(_line(found.camera, found.sigmas, found.residual, out))
     return FoundCameras(placed, provenance, residuals, worst, tuple(lines))
 
 
-def _require_datums(at: AtTable, name: str, picture: Markers) -> tuple[Array, Array]:
-    points, pixels = datums_in(at.device.setup, picture)
-    if len(points) < 4 * ENOUGH:
-        text = f"camera `{name}` sees {len(points) // 4} datums; {ENOUGH} is the least"
+def _require_datums(at: AtTable, name: str, picture: Markers, camera: CameraModel) -> SeenDatums:
+    datums = datums_in(at.device.setup, picture, camera)
+    if len(datums.corners) < 4 * ENOUGH:
+        text = f"camera `{name}` sees {len(datums.corners) // 4} datums; {ENOUGH} is the least"
         hint = f"the lab needs {ENOUGH} datums or more that every camera sees (`datums` of the Lab)"
         raise PicoError(error("calibration-datums", text, hint=hint, address=name))
-    return points, pixels
+    return datums
 
 
 def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array) -> float | None:
@@ -140,14 +140,13 @@ def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array)
     if too few would be left."""
     import numpy as np
 
-    points, pixels = datums_in(at.device.setup, picture)
-    if len(points) < 4 * (ENOUGH + 1):
+    datums = datums_in(at.device.setup, picture, camera)
+    if len(datums.corners) < 4 * (ENOUGH + 1):
         return None
     squares = []
-    for i in range(0, len(points), 4):
-        others = np.r_[0:i, i + 4 : len(points)]
-        placed = place_of(points[others], pixels[others], camera, sigmas[:-6]).camera
-        squares.append(np.sum((placed.project(points[i : i + 4]) - pixels[i : i + 4]) ** 2, axis=1))
+    for i in range(len(datums.corners) // 4):
+        placed, own = place_of(datums.without(i), camera, sigmas[:-6]).camera, slice(4 * i, 4 * i + 4)
+        squares.append(np.sum((placed.project(datums.corners[own]) - datums.pixels[own]) ** 2, axis=1))
     return float(np.sqrt(np.mean(squares)))
 
 
@@ -189,7 +188,5 @@ def _drawn(at: AtTable, frame: Frame, seen: Markers, camera: CameraModel) -> Non
 
     points = np.concatenate([datum_corners(datum) for datum in at.device.setup.lab.datums.values()])
     there = camera.project(points)
-    _, pixels = datums_in(at.device.setup, seen)
-    corners_drawn(
-        frame.gray, [pixels], at.pictures / f"extrinsics-{camera.name}.png", [there[np.isfinite(there).all(1)]]
-    )
+    pixels = [marker.corners for marker in seen.markers]
+    corners_drawn(frame.gray, pixels, at.pictures / f"extrinsics-{camera.name}.png", [there[np.isfinite(there).all(1)]])
