@@ -56,6 +56,25 @@ def test_cameras_that_see_board_and_datums_are_found_within_their_error_bars() -
     assert np.abs(pulls).max() < 4.5 and np.mean(np.abs(pulls) < 2) > 0.85
 
 
+def test_datums_that_are_seen_better_than_the_board_make_error_bars_smaller() -> None:
+    """What the datums alone tell is as sure as they are seen, not as the board is, and each picture counts as it is."""
+    pulls = []
+    for seed in range(6):
+        rng, start = np.random.default_rng((seed, 5)), stereo()
+        true = {name: true_of(camera, rng) for name, camera in start.items()}
+        shots = []
+        for pose, blurred in zip(poses(rng, 10), rng.uniform(0.0, 0.1, 10), strict=True):
+            views = {n: seen(c, pose, rng) for n, c in true.items()}
+            worse = {n: v.pixels + rng.normal(0, blurred, v.pixels.shape) for n, v in views.items()}
+            shots.append({n: replace(v, pixels=worse[n]) for n, v in views.items()})
+        found = bundle(BENCH, shots, {n: table(c, rng, 0.015) for n, c in true.items()}, start)
+        pulls += [off_by(found.cameras[n], c) / found.sigmas[n] for n, c in true.items()]
+    off = np.array(pulls)
+    assert np.abs(off).max() < 4.5 and np.mean(np.abs(off) < 2) > 0.85
+    by_datums = [6, LENS + 3, LENS + 5]  # p1, turn about x and z
+    assert np.sqrt(np.mean(off[:, by_datums] ** 2)) > 1 / 1.5, "no more than 1.5 times the scatter is said"
+
+
 def test_too_few_pictures_and_pictures_that_no_lens_explains_are_named() -> None:
     rng, camera = np.random.default_rng(3), stereo()["left"]
     views = [seen(camera, pose, rng) for pose in poses(rng, 8)]
