@@ -1,23 +1,28 @@
 """What the calibration of a bench with devices finds of what was injected into the emulated one.
 
-    python benchmarks/calibration_procedure.py [--seeds 20] [--shots 20] [--pixels 2448] [--arms]
+    python benchmarks/calibration_procedure.py [--seeds 20] [--shots 20] [--pixels 2448] [--arms] [--placements 20]
 
 Each seed is a bench of labs/shel with examples/devices.yaml: cameras displaced by 3 mm and turned by 1 deg, focal
 lengths wrong by 0.5 % and k1 by 0.01, the zero of one mount wrong by 12.5 deg, another mount reversed. `pico calibrate`
 does the steps intrinsics, extrinsics, axes and dark over the drivers and emulators, with a simulated person who holds
 the board and reads the scales. With `--arms` also the step arms (minutes a seed): mount off by 2 mm and 0.3 deg, joints
-by 0.1 deg, tool by 1 mm; then how far the tool is from where it should be, over the workspace.
+by 0.1 deg, tool by 1 mm; then how far the tool is from where it should be, over the workspace. With `--placements`
+(and `--arms`) parts then go one after the other to random poses, as `pico move` plans and runs it on that bench, which
+sees them through the cameras as they were calibrated; parts scatter as their types say when they are put down. The
+truth is read from the world afterwards.
 
 Printed: by quantity the real scatter, the stated sigma, the farthest in sigmas, and the ratio of sigma and scatter with
 the 95 % confidence interval that so many values leave it. Ends with 1 if a value is more than 4 sigmas off or a mount's
 direction is wrong, and with 10 seeds or more if not 90 to 99 % of all values are within 2 sigmas, or if a sigma is more
-than 1.5 times the real scatter and that is not by chance (1.5 lies below the interval).
+than 1.5 times the real scatter and that is not by chance (1.5 lies below the interval); or if of all placements more
+than 5 % stand more than 0.3 mm off their goal.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import random
 import shutil
 import sys
 import tempfile
@@ -32,10 +37,13 @@ sys.path[:0] = [str(ROOT), str(ROOT / "benchmarks")]
 from calibration import missed  # noqa: E402
 
 from pico.backends.emulated.bench import PACE  # noqa: E402
+from pico.backends.sim.store import load_world  # noqa: E402
 from pico.bench.bench import Bench  # noqa: E402
 from pico.bench.calibrating.walk import CalibrationWalk  # noqa: E402
 from pico.cameras.errors import true_cameras  # noqa: E402
 from pico.model.calibration.steps import CalibrationStep  # noqa: E402
+from pico.model.pose import Pose  # noqa: E402
+from pico.places.bench import BenchPlace  # noqa: E402
 from pico.twin.arms import arms_of  # noqa: E402
 from pico.vision.bundle import lens  # noqa: E402
 from pico.vision.calibration_files import read_calibration  # noqa: E402
@@ -46,11 +54,16 @@ ERRORS = """  errors:
     camera_rotation: 1 deg
     focal_length: 0.005
     distortion: 0.01
+    seat: 1
     devices: {p1.angle: {zero: 12.5}, p2.angle: {reversed: true}}
 """
 AXES = {"hwp.angle": (1, 0.0), "p1.angle": (1, 12.5), "p2.angle": (-1, 0.0)}
 ARM = "    arm: {mount_position: 2 mm, mount_rotation: 0.3 deg, joint_zero: 0.1 deg, tool_position: 1 mm}\n"
 STEPS: tuple[CalibrationStep, ...] = ("intrinsics", "extrinsics", "axes", "dark")
+PLACED = 0.3
+"""What 95 % of all placements must hold [mm]."""
+APART = 100.0
+"""Least distance of a goal from any other part [mm]."""
 LARGEST = 1.5
 """By how many times the scatter a sigma may be larger."""
 LENS = ("fx_px", "fy_px", "cx_px", "cy_px", "k1", "k2", "p1", "p2", "k3")
@@ -119,6 +132,31 @@ def calibrated(root: Path, seed: int, shots: int, arms: bool) -> tuple[dict[str,
     return found, right
 
 
+def placements(root: Path, seed: int, count: int) -> list[float]:
+    """Have parts go to random poses on the calibrated bench of a lab; return how far off each really stands [mm]."""
+    rnd, off = random.Random(seed), list[float]()
+    bench = Bench.open(root, backend="emulated")
+    try:
+        setup = bench.setup
+        (width, depth), place = setup.lab.table.size, BenchPlace(root, "emulated")
+        while len(off) < count:
+            bodies = load_world(setup, place)[0].components
+            name = rnd.choice(sorted(n for n, b in bodies.items() if setup.movable(n) and b.presence == "seen"))
+            goal = Pose(rnd.uniform(60, width - 60), rnd.uniform(60, depth - 60), rnd.uniform(-180, 180))
+            if any(b.pose and goal.distance(b.pose) < APART for n, b in bodies.items() if n != name):
+                continue
+            said = {"x": f"{goal.x:.4f}", "y": f"{goal.y:.4f}", "yaw": f"{goal.yaw:.4f}"}
+            plan = bench.plans.single(name, "move", said)
+            if plan.errored or not plan.operations:  # out of reach, or no way there
+                continue
+            bench.apply(plan)
+            stands = load_world(setup, place)[0].components[name].pose
+            off.append(stands.distance(Pose(*(float(v) for v in said.values()))) if stands else np.inf)
+    finally:
+        bench.close()
+    return off
+
+
 def chances(count: int) -> tuple[float, float]:
     """Return the 95 % confidence interval of a ratio of sigma and scatter that is 1 by `count` values: of the root of
     chi square by its degrees of freedom (E. B. Wilson, M. M. Hilferty, PNAS 17, 684 (1931))."""
@@ -133,13 +171,19 @@ def main() -> None:
     words.add_argument("--shots", type=int, default=20)
     words.add_argument("--pixels", type=int, default=2448)
     words.add_argument("--arms", action="store_true")
+    words.add_argument("--placements", type=int, default=0)
     asked = words.parse_args()
     os.environ[PACE] = "4" if asked.arms else "20"
     start, rows, right = time.process_time(), dict[str, list[tuple[float, float]]](), True
+    stand: list[float] = []
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(1, asked.seeds + 1):
-            found, directions = calibrated(lab(Path(folder), seed, asked.pixels), seed, asked.shots, asked.arms)
+            root = lab(Path(folder), seed, asked.pixels)
+            found, directions = calibrated(root, seed, asked.shots, asked.arms)
             right &= directions
+            pull = max(abs(off / sigma) for off, sigma in found.values())
+            print(f"  seed {seed}: farthest {pull:.1f} sigmas, {time.process_time() - start:.0f} s so far", flush=True)
+            stand += placements(root, seed, asked.placements) if asked.arms and asked.placements else []
             for name, one in found.items():
                 rows.setdefault(name.replace("left ", "camera ").replace("right ", "camera "), []).append(one)
     print(f"{asked.seeds} seeds, {asked.shots} pictures of the board; real scatter, stated sigma (median), farthest")
@@ -158,6 +202,10 @@ def main() -> None:
     print(f"directions of mounts {'right' if right else 'WRONG'}; {time.process_time() - start:.0f} s of one core")
     if too_large:
         print(f"sigmas more than {LARGEST} times the scatter: {', '.join(too_large)}")
+    if stand:
+        p50, p95 = np.percentile(stand, (50, 95))
+        print(f"{len(stand)} placements: {p50:.3f} mm (median), {p95:.3f} mm (p95), {max(stand):.3f} mm (farthest)")
+        right &= bool(p95 <= PLACED)
     good = right and max(pulls) <= 4 and (asked.seeds < 10 or (0.9 <= within <= 0.99 and not too_large))
     sys.exit(not good)
 
