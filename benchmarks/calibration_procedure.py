@@ -45,8 +45,8 @@ from pico.model.calibration.steps import CalibrationStep  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
 from pico.places.bench import BenchPlace  # noqa: E402
 from pico.twin.arms import arms_of  # noqa: E402
-from pico.vision.bundle import lens  # noqa: E402
 from pico.vision.calibration_files import read_calibration  # noqa: E402
+from pico.vision.lens import lens  # noqa: E402
 from pico.vision.rigid import rotation_vector  # noqa: E402
 
 ERRORS = """  errors:

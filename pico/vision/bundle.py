@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
 from pico.model.setup import Setup
@@ -19,8 +19,21 @@ from pico.vision.camera import CameraModel
 from pico.vision.charuco import BoardView
 from pico.vision.datums import ENOUGH, SeenDatums, datums_in, resection
 from pico.vision.least_squares import Solution, noise_by_group, solve
+from pico.vision.lens import (
+    CORNER_NOISE,
+    FINEST,
+    LEAST,
+    LENS,
+    LENS_STEPS,
+    MISFIT,
+    POSE_STEPS,
+    intrinsics,
+    lens,
+    unsure,
+    with_lens,
+)
 from pico.vision.markers import Markers
-from pico.vision.rigid import motion, moved, rotation
+from pico.vision.rigid import moved
 
 if TYPE_CHECKING:
     import numpy as np
@@ -28,18 +41,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-LENS = 9
-"""Numbers of a lens: fx, fy, cx, cy, k1, k2, p1, p2, k3."""
-LENS_STEPS = (1e-2, 1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-6, 1e-6, 1e-5)
-POSE_STEPS = (1e-2,) * 3 + (1e-5,) * 3  # mm, rad
 _OUTLIER = 4.0  # times the median distance in its picture, from which a corner is left out
-CORNER_NOISE = 0.025
-"""One standard deviation of a corner [pixels], until a fit shows the noise of each picture."""
-FINEST = 0.002
-"""No corner counts as seen better than this [pixels]."""
-MISFIT = 1.0
-"""Corners that are farther off than this at the end [pixels, root mean square] were not seen by one lens."""
-
 Shot = Mapping[str, BoardView]
 """The board as the cameras saw it at one instant, by camera."""
 
@@ -56,41 +58,6 @@ class Bundle:
     boards: Mapping[int, Array]
     sigmas: Mapping[str, Array]
     """One standard deviation of each number of a camera (15,): nine of its lens, its place [mm], its turn [rad]."""
-
-
-def lens(camera: CameraModel) -> Array:
-    """Return the numbers of a camera's lens: fx, fy, cx, cy and its distortion."""
-    import numpy as np
-
-    k = camera.matrix
-    return np.array([k[0, 0], k[1, 1], k[0, 2], k[1, 2], *camera.distortion])
-
-
-def with_lens(camera: CameraModel, numbers: Array) -> CameraModel:
-    """Return the camera with another lens."""
-    import numpy as np
-
-    fx, fy, cx, cy = numbers[:4]
-    matrix: Any = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
-    return replace(camera, matrix=matrix, distortion=np.array(list(numbers[4:]), np.float64))
-
-
-def intrinsics(views: Sequence[BoardView], camera: CameraModel) -> tuple[CameraModel, list[Array]]:
-    """Return the camera with the lens that fits pictures of the board best (Zhang, PAMI 22, 1330 (2000)), and the pose
-    (4, 4) of the board in the camera's frame for each. Starts from the lens that `camera` has."""
-    import cv2
-    import numpy as np
-
-    points = [view.corners.astype(np.float32) for view in views]
-    pixels = [view.pixels.astype(np.float32).reshape(-1, 1, 2) for view in views]
-    start = camera.matrix.copy(), camera.distortion.copy()
-    _, matrix, distortion, turns, shifts = cv2.calibrateCamera(
-        points, pixels, camera.pixels, *start, flags=cv2.CALIB_USE_INTRINSIC_GUESS
-    )
-    poses = [motion(rotation(np.ravel(r)), np.ravel(t)) for r, t in zip(turns, shifts, strict=True)]
-    numbers = np.asarray(np.ravel(distortion)[:5], np.float64)
-    found = replace(camera, matrix=np.asarray(matrix, np.float64), distortion=numbers)
-    return found, poses
 
 
 def bundle(
@@ -122,7 +89,7 @@ def bundle(
     fitted, held = problem.at(found.parameters)
     residuals = problem.left(found)
     _refuse_misfit(residuals)
-    return Bundle(fitted, residuals, _position(fitted, seen, found), held, _sigmas(fitted, found))
+    return Bundle(fitted, residuals, _position(setup, fitted, found), held, _sigmas(fitted, found))
 
 
 def _refuse_misfit(residuals: Mapping[str, float]) -> None:
@@ -268,28 +235,20 @@ def _sigmas(cameras: Mapping[str, CameraModel], found: Solution) -> dict[str, Ar
     return dict(zip(cameras, sigmas.reshape(len(cameras), LENS + 6), strict=True))
 
 
-def _position(cameras: Mapping[str, CameraModel], seen: Mapping[str, SeenDatums], found: Solution) -> float:
-    """Return what the uncertainty of lens and pose does to a position on the table [mm], at the datums."""
+def _position(setup: Setup, cameras: Mapping[str, CameraModel], found: Solution) -> float:
+    """Return what the uncertainty of lens and pose does to a position over the table [mm], by the worst camera."""
     import numpy as np
 
-    worst, each = 0.0, LENS + 6
-    for i, (name, camera) in enumerate(cameras.items()):
-        steps, points = np.array(LENS_STEPS + POSE_STEPS), seen[name].corners
-        columns = [_shifted(camera, step).project(points) - camera.project(points) for step in np.diag(steps)]
-        jacobian = np.stack([c.ravel() / s for c, s in zip(columns, steps, strict=True)], axis=1)
+    worst, each, steps = 0.0, LENS + 6, np.array(LENS_STEPS + POSE_STEPS)
+    for i, camera in enumerate(cameras.values()):
         block = found.covariance[i * each : (i + 1) * each, i * each : (i + 1) * each]
-        pixels = float(np.sqrt(np.trace(jacobian @ block @ jacobian.T) / len(points)))
-        distance = float(np.mean(np.linalg.norm(points - camera.pose[:3, 3], axis=1)))
-        worst = max(worst, pixels * distance / float(camera.matrix[0, 0]))
+        near = [_shifted(camera, step) for step in np.diag(steps)]
+        worst = max(worst, unsure(setup, camera, near, steps, block))
     return worst
 
 
 def _shifted(camera: CameraModel, change: Array) -> CameraModel:
     return with_lens(replace(camera, pose=moved(camera.pose, change[LENS:])), lens(camera) + change[:LENS])
-
-
-LEAST = 6
-"""Pictures of the board that a camera needs."""
 
 
 def _refuse(shots: Sequence[Shot], seen: Mapping[str, SeenDatums]) -> None:

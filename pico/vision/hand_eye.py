@@ -14,10 +14,10 @@ from itertools import combinations
 from typing import TYPE_CHECKING
 
 from pico.diagnostics import PicoError, error
-from pico.vision.bundle import CORNER_NOISE, LEAST, LENS, LENS_STEPS, POSE_STEPS, intrinsics, lens, with_lens
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BoardView
 from pico.vision.least_squares import solve
+from pico.vision.lens import CORNER_NOISE, LEAST, LENS, LENS_STEPS, POSE_STEPS, intrinsics, lens, with_lens
 from pico.vision.rigid import best_motion, motion, moved, rotation_vector
 
 if TYPE_CHECKING:

@@ -16,8 +16,8 @@ from pico.backends.emulated.bench import PACE
 from pico.backends.emulated.hands import SimulatedHands
 from pico.cameras.errors import true_cameras
 from pico.manifest.load import load_folder
-from pico.vision.bundle import lens
 from pico.vision.calibration_files import read_calibration
+from pico.vision.lens import lens
 from pico.vision.rigid import apart
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"

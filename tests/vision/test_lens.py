@@ -6,13 +6,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from painted import bumped, stereo
+from painted import bumped, looking, stereo
 from test_calibration import BENCH, NOISE, poses, seen, table
 
 from pico.diagnostics import PicoError
-from pico.vision.bundle import LENS, bundle, lens
+from pico.vision.bundle import bundle
 from pico.vision.datums import datums_in
-from pico.vision.lens import board_in, lens_of, place_of
+from pico.vision.lens import LENS, board_in, lens, lens_of, place_of
 from pico.vision.rigid import apart, rotation_vector
 
 
@@ -36,7 +36,7 @@ def test_lens_and_place_are_found_within_their_error_bars() -> None:
         true = true_of(start, rng)
         found = lens_of([seen(true, pose, rng) for pose in poses(rng, 14)], start)
         assert found.residual == pytest.approx(NOISE * 2**0.5, rel=0.25) and found.held_out < 1.5 * found.residual
-        placed = place_of(datums_in(BENCH, table(true, rng), found.camera), found.camera, found.sigmas)
+        placed = place_of(BENCH, datums_in(BENCH, table(true, rng), found.camera), found.camera, found.sigmas)
         assert placed.residual < 0.1
         pulls.append(np.concatenate([(lens(found.camera) - lens(true)) / found.sigmas,
                                      off_by(placed.camera, true)[LENS:] / placed.sigmas[LENS:]]))  # fmt: skip
@@ -92,3 +92,20 @@ def test_a_board_that_two_calibrated_cameras_see_is_found_on_the_table() -> None
         found, left = board_in(views, list(cameras.values()))
         distance, angle = apart(found, pose)
         assert distance < 0.1 and angle < 0.05 and left == pytest.approx(NOISE * 2**0.5, rel=0.3)
+
+
+def test_one_camera_straight_above_says_how_badly_it_knows_what_stands_high() -> None:
+    """Datums alone hardly tell its place from its principal point: what it then has wrong shows above the table."""
+    off, said = [], []
+    for seed in range(4):
+        rng, start = np.random.default_rng((seed, 6)), {"top": looking("top", (500, 350, 1000), (500, 350, 0))}
+        true = true_of(start["top"], rng)
+        shots = [{"top": seen(true, pose, rng)} for pose in poses(rng, 10)]
+        found = bundle(BENCH, shots, {"top": table(true, rng)}, start)
+        points = np.array([(x, y, 140.0) for x in (150.0, 850.0) for y in (150.0, 550.0)])
+        origin, ways = found.cameras["top"].rays(true.project(points))
+        there = origin + ways * ((140.0 - origin[2]) / ways[:, 2])[:, None]
+        off.append(np.sqrt(np.mean(np.sum((there - points)[:, :2] ** 2, axis=1))))
+        said.append(found.position)
+    assert np.sqrt(np.mean(np.square(off))) < 2.5 * np.mean(said), (off, said)
+    assert min(said) > 0.05

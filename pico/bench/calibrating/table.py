@@ -11,10 +11,10 @@ from pico.bench.calibrating.at_table import AtTable
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
-from pico.vision.bundle import LENS, bundle, lens
+from pico.vision.bundle import bundle
 from pico.vision.camera import CameraModel
 from pico.vision.datums import ENOUGH, SeenDatums, datum_corners, datums_in
-from pico.vision.lens import place_of
+from pico.vision.lens import LENS, lens, place_of
 from pico.vision.markers import Markers, detect
 
 if TYPE_CHECKING:
@@ -106,13 +106,11 @@ def _alone(
     known: Mapping[str, tuple[CameraModel, Provenance]],
 ) -> FoundCameras:
     """Each camera by the datums that it sees, with the lens that it has."""
-    import numpy as np
-
     placed, provenance, residuals, lines, worst = {}, dict[str, Provenance](), {}, list[str](), 0.0
     for name in cameras:
         camera, how = known[name]
         datums = _require_datums(at, name, seen[name], camera)
-        found = place_of(datums, camera, _sigmas_of(camera, how))
+        found = place_of(at.device.setup, datums, camera, _sigmas_of(camera, how))
         out = _held_out(at, seen[name], found.camera, found.sigmas)
         placed[name], residuals[name] = found.camera, round(found.residual, 4)
         provenance[f"intrinsics/{name}"] = how
@@ -120,8 +118,7 @@ def _alone(
             PROCEDURE, at.devices_of(name), residual=found.residual, held_out=out, unit="px",
             uncertainty=_of_pose(found.sigmas[-6:]),
         )  # fmt: skip
-        high = float(np.mean(np.linalg.norm(datums.corners - found.camera.pose[:3, 3], axis=1)))
-        worst = max(worst, max(found.residual, 0.05) * high / float(found.camera.matrix[0, 0]))
+        worst = max(worst, found.position)
         lines.append(_line(found.camera, found.sigmas, found.residual, out))
     return FoundCameras(placed, provenance, residuals, worst, tuple(lines))
 
@@ -145,7 +142,7 @@ def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array)
         return None
     squares = []
     for i in range(len(datums.corners) // 4):
-        placed, own = place_of(datums.without(i), camera, sigmas[:-6]).camera, slice(4 * i, 4 * i + 4)
+        placed, own = place_of(at.device.setup, datums.without(i), camera, sigmas[:-6]).camera, slice(4 * i, 4 * i + 4)
         squares.append(np.sum((placed.project(datums.corners[own]) - datums.pixels[own]) ** 2, axis=1))
     return float(np.sqrt(np.mean(squares)))
 
