@@ -7,13 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from painted import bumped, looking, stereo
-from test_calibration import BENCH, NOISE, poses, seen, table
+from test_calibration import BENCH, NOISE, glances, poses, seen, table
 
 from pico.diagnostics import PicoError
 from pico.vision.bundle import bundle
 from pico.vision.datums import datums_in
+from pico.vision.hand_eye import hand_eye, scattered
 from pico.vision.lens import LENS, board_in, lens, lens_of, place_of
-from pico.vision.rigid import apart, rotation_vector
+from pico.vision.rigid import apart, motion, moved, rotation, rotation_vector
 
 
 def true_of(camera, rng):
@@ -109,3 +110,22 @@ def test_one_camera_straight_above_says_how_badly_it_knows_what_stands_high() ->
         said.append(found.position)
     assert np.sqrt(np.mean(np.square(off))) < 2.5 * np.mean(said), (off, said)
     assert min(said) > 0.05
+
+
+def test_the_error_bars_of_a_camera_in_a_hand_hold_for_an_arm_that_is_not_where_it_says() -> None:
+    """Each picture is off as a whole, by what the arm is off there."""
+    mount, pulls, outs = motion(rotation(np.array([0.1, -0.2, 1.5])), np.array([60.0, 5, -40])), [], []
+    camera = replace(stereo()["left"], name="hand", robot="arm1")
+    for seed in range(3):
+        rng = np.random.default_rng((seed, 8))
+        tools, board = glances(mount, rng)
+        sigmas = np.repeat((0.1, 2e-4), 3)
+        there = [moved(tool, rng.normal(0, sigmas)) for tool in tools]
+        views = [seen(replace(camera, pose=tool @ mount), board, rng) for tool in there]
+        found = hand_eye(views, tools, camera, board)
+        spread, out = scattered(views, tools, camera, board, found)
+        true = replace(camera, pose=mount)
+        pulls += list(off_by(found.camera, true) / spread)
+        outs.append(out / found.residual)
+    assert np.abs(pulls).max() < 5 and np.mean(np.abs(pulls) < 2) > 0.85
+    assert np.sqrt(np.mean(np.square(pulls))) > 0.5 and min(outs) > 1

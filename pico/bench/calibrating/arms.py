@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -55,7 +55,8 @@ def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple
     import numpy as np
 
     over = {name: camera for name, camera in cameras.items() if camera.robot is None}
-    home, paths = _paths(at, robot, list(over.values()))
+    least, board = min(2, len(over)), grip()
+    home, paths = ways_from(at, robot, lambda tool: seen_by(list(over.values()), tool @ board) >= least)
     speed = FIRST_SPEED if robot in at.wait(at.device.untried()) else NEAR
     at.asks.say(
         f"{robot} goes to {len(paths)} postures with the board in its hand and parks between them, its tool at "
@@ -89,9 +90,11 @@ def _numbered(shown: Sequence[Posture]) -> list[int]:
     return [sorted(set(seen)).index(take) for take in seen]
 
 
-def _paths(at: AtTable, robot: str, cameras: Sequence[CameraModel]) -> tuple[MovePath | None, list[MovePath]]:
-    """Return the way of the arm to its park pose from where it stands, None if it is there, and free ways from postures
-    in which the board in the hand is seen."""
+def ways_from(
+    at: AtTable, robot: str, seen_in: Callable[[Array], bool]
+) -> tuple[MovePath | None, list[MovePath]]:  # fmt: skip
+    """Return the way of the arm to its park pose from where it stands, None if it is there, and free ways there from
+    postures in which the board is seen, as `seen_in` says of the pose (4, 4) of the tool. Raises PicoError."""
     import numpy as np
 
     setup, seen = at.device.setup, at.wait(at.edge.observe())
@@ -99,8 +102,7 @@ def _paths(at: AtTable, robot: str, cameras: Sequence[CameraModel]) -> tuple[Mov
         checks.require_empty(seen, robot)
     except Failed as exc:
         raise PicoError(exc.diagnostic) from exc
-    least, held, random = min(2, len(cameras)), grip(), np.random.default_rng(11)
-    joints = postures(setup, robot, POSTURES + SPARE, lambda tool: seen_by(cameras, tool @ held) >= least, random)
+    joints = postures(setup, robot, POSTURES + SPARE, seen_in, np.random.default_rng(11))
     motion, standing = DeferredMotion(setup), checks.standing(setup, seen)
     others = {name: other.joints for name, other in seen.robots.items() if name != robot}
     now = seen.robots[robot].joints
@@ -161,6 +163,17 @@ async def _showing(
     at: AtTable, robot: str, path: MovePath, cameras: Mapping[str, CameraModel], speed: float, take: int
 ) -> Posture:
     """Bring the arm to where a path begins, look, and go back along it."""
+    read, frames = await resting(at, robot, path, tuple(cameras), speed)
+    board = await asyncio.to_thread(_board, at, robot, frames, cameras)  # the loop hears of the arm meanwhile
+    await at.device.walk(path, speed)
+    return Posture(take, read, board)
+
+
+async def resting(
+    at: AtTable, robot: str, path: MovePath, cameras: Sequence[str], speed: float
+) -> tuple[Array, dict[str, Frame]]:
+    """Bring an arm from its park pose to where a path begins, and return what its encoders read there (7,) [rad] and
+    what `cameras` see. Raises Failed and PicoError."""
     import numpy as np
 
     at.require_dark("an arm that moves")
@@ -169,10 +182,7 @@ async def _showing(
     await at.device.links.pause(SETTLED)
     arm = (await at.device.links.instruments()).arms[robot]
     read = np.mean([(await arm.state()).joints for _ in range(READS)], axis=0)
-    frames = {name: await at.device.picture(name) for name in cameras}
-    board = await asyncio.to_thread(_board, at, robot, frames, cameras)  # the loop hears of the arm meanwhile
-    await at.device.walk(path, speed)
-    return Posture(take, read, board)
+    return read, {name: await at.device.picture(name) for name in cameras}
 
 
 def _board(at: AtTable, robot: str, frames: Mapping[str, Frame], cameras: Mapping[str, CameraModel]) -> Array | None:

@@ -93,7 +93,7 @@ def _together(
         )  # fmt: skip
         out = _held_out(at, seen[name], found.cameras[name], sigmas)
         provenance[f"extrinsics/{name}"] = at.provenance(
-            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px", uncertainty=_of_pose(sigmas[LENS:])
+            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px", uncertainty=of_pose(sigmas[LENS:])
         )
         lines.append(_line(found.cameras[name], sigmas, left, out))
     return FoundCameras(found.cameras, provenance, found.residuals, found.position, tuple(lines))
@@ -116,7 +116,7 @@ def _alone(
         provenance[f"intrinsics/{name}"] = how
         provenance[f"extrinsics/{name}"] = at.provenance(
             PROCEDURE, at.devices_of(name), residual=found.residual, held_out=out, unit="px",
-            uncertainty=_of_pose(found.sigmas[-6:]),
+            uncertainty=of_pose(found.sigmas[-6:]),
         )  # fmt: skip
         worst = max(worst, found.position)
         lines.append(_line(found.camera, found.sigmas, found.residual, out))
@@ -165,7 +165,8 @@ def _sigmas_of(camera: CameraModel, how: Provenance) -> Array:
     return np.array([how.uncertainty.get(name, LOOSE[name[:1]]) for name in names_of(camera)])
 
 
-def _of_pose(sigmas: Array) -> dict[str, float]:
+def of_pose(sigmas: Array) -> dict[str, float]:
+    """Return the uncertainties of place [mm] and turn [deg] of a camera by name; `sigmas` (6,): mm, rad."""
     names = ("x_mm", "y_mm", "z_mm", "turn_x_deg", "turn_y_deg", "turn_z_deg")
     return {
         name: float(v) * (1.0 if name.endswith("mm") else 180 / math.pi) for name, v in zip(names, sigmas, strict=True)

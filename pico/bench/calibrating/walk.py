@@ -17,6 +17,7 @@ from pico.bench.calibrating.at_table import SHOTS, Asking, AtTable, Hands
 from pico.bench.calibrating.axes import axis
 from pico.bench.calibrating.board import intrinsics
 from pico.bench.calibrating.dark import dark
+from pico.bench.calibrating.hands import hand_of
 from pico.bench.calibrating.progress import read_progress
 from pico.bench.calibrating.subjects import standing_of
 from pico.bench.calibrating.table import FoundCameras, extrinsics, names_of
@@ -171,13 +172,27 @@ class CalibrationWalk:
                 known = replace(known, axes={**known.axes, name: zero})
             elif step == "arms":
                 arm, how, line = arm_of(at, name, known.cameras)
-                known = replace(known, arms={**known.arms, name: arm})
+                known = self._without_hands(replace(known, arms={**known.arms, name: arm}), name)
+            elif step == "hands":
+                camera = self.device.setup.lab.cameras[name]
+                eye, how, line = hand_of(at, name, known.cameras, known.arms[camera.robot or ""])
+                known = replace(
+                    known, cameras={**known.cameras, name: eye.camera},
+                    residuals={**known.residuals, name: round(eye.residual, 4)},
+                )  # fmt: skip
             else:
                 level, how, line = dark(at, name)
                 known = replace(known, dark={**known.dark, name: level})
             self._keep(replace(known, provenance={**known.provenance, f"{step}/{name}": how}))
             lines.append(line)
         return tuple(lines)
+
+    def _without_hands(self, known: Calibration, robot: str) -> Calibration:
+        """Leave out where the cameras in the hand of a robot are: that was told by the arm as it was known before."""
+        hands = [name for name, camera in known.cameras.items() if camera.robot == robot]
+        for name in hands:
+            self.asks.say(f"hands/{name} is left out of {self.file.name}: {robot} was calibrated anew.")
+        return without(known, {f"hands/{name}": "" for name in hands})
 
     def _lenses(self, at: AtTable) -> dict[str, tuple[CameraModel, Provenance]]:
         """The cameras whose lens is known, with how it was found: what was found last counts."""
@@ -213,10 +228,10 @@ class CalibrationWalk:
 def without(known: Calibration, results: Mapping[str, str]) -> Calibration:
     """Return a calibration without some `results` (`step/subject`); a camera without lens or place is none."""
     of = {step: {r.partition("/")[2] for r in results if r.partition("/")[0] == step} for step in STEPS}
-    cameras = {n: c for n, c in known.cameras.items() if n not in of["intrinsics"] | of["extrinsics"]}
+    cameras = {n: c for n, c in known.cameras.items() if n not in of["intrinsics"] | of["extrinsics"] | of["hands"]}
     gone = {
         *results,
-        *(f"{s}/{n}" for n in known.cameras.keys() - cameras.keys() for s in ("intrinsics", "extrinsics")),
+        *(f"{s}/{n}" for n in known.cameras.keys() - cameras.keys() for s in ("intrinsics", "extrinsics", "hands")),
     }
     return replace(
         known, cameras=cameras, residuals={n: v for n, v in known.residuals.items() if n in cameras},
