@@ -30,6 +30,7 @@ from pico.vision.lens import (
     intrinsics,
     lens,
     unsure,
+    unsure_above,
     with_lens,
 )
 from pico.vision.markers import Markers
@@ -58,6 +59,8 @@ class Bundle:
     boards: Mapping[int, Array]
     sigmas: Mapping[str, Array]
     """One standard deviation of each number of a camera (15,): nine of its lens, its place [mm], its turn [rad]."""
+    above: float
+    """One standard deviation [mm], in each direction, of where all cameras see the boards that were held up."""
 
 
 def bundle(
@@ -89,7 +92,9 @@ def bundle(
     fitted, held = problem.at(found.parameters)
     residuals = problem.left(found)
     _refuse_misfit(residuals)
-    return Bundle(fitted, residuals, _position(setup, fitted, found), held, _sigmas(fitted, found))
+    return Bundle(
+        fitted, residuals, _position(setup, fitted, found), held, _sigmas(fitted, found), _above(fitted, held, found)
+    )
 
 
 def _refuse_misfit(residuals: Mapping[str, float]) -> None:
@@ -245,6 +250,18 @@ def _position(setup: Setup, cameras: Mapping[str, CameraModel], found: Solution)
         near = [_shifted(camera, step) for step in np.diag(steps)]
         worst = max(worst, unsure(setup, camera, near, steps, block))
     return worst
+
+
+def _above(cameras: Mapping[str, CameraModel], boards: Mapping[int, Array], found: Solution) -> float:
+    import numpy as np
+
+    every, steps = list(cameras.values()), np.array(LENS_STEPS + POSE_STEPS)
+    near = [[_shifted(camera, step) for step in np.diag(steps)] for camera in every]
+    points = np.array([board[:3, 3] for board in boards.values()])
+    if len(every) < 2:  # along its ray a single camera knows a board by its size
+        return 0.0
+    block = found.covariance[: len(steps) * len(every), : len(steps) * len(every)]
+    return unsure_above(points, every, near, steps, block)
 
 
 def _shifted(camera: CameraModel, change: Array) -> CameraModel:

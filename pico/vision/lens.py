@@ -228,6 +228,38 @@ def unsure(
     return worst
 
 
+def unsure_above(
+    points: Array,
+    cameras: Sequence[CameraModel],
+    near: Sequence[Sequence[CameraModel]],
+    steps: Array,
+    covariance: Array,
+) -> float:
+    """Return one standard deviation [mm], in each direction, of where several cameras see one of `points` (n, 3) [mm]
+    together; `near`: each camera with each of its numbers changed by its step, `covariance`: of all their numbers."""
+    import numpy as np
+
+    pixels = [camera.project(points) for camera in cameras]
+    columns = []
+    for i, changed in enumerate(near):
+        for one, step in zip(changed, steps, strict=True):
+            columns.append((_met([*cameras[:i], one, *cameras[i + 1 :]], pixels) - points).ravel() / step)
+    jacobian = np.stack(columns, axis=1)
+    return float(np.sqrt(np.einsum("ij,jk,ik->", jacobian, covariance, jacobian) / points.size))
+
+
+def _met(cameras: Sequence[CameraModel], pixels: Sequence[Array]) -> Array:
+    """The points (n, 3) [mm] that are nearest to the rays behind `pixels` (n, 2) of each camera."""
+    import numpy as np
+
+    normal, right = np.zeros((len(pixels[0]), 3, 3)), np.zeros((len(pixels[0]), 3))
+    for camera, seen in zip(cameras, pixels, strict=True):
+        origin, ways = camera.rays(seen)
+        across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
+        normal, right = normal + across, right + across @ origin
+    return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0], np.float64)
+
+
 def board_in(views: Sequence[BoardView], cameras: Sequence[CameraModel]) -> tuple[Array, float]:
     """Return the pose (4, 4) on the table of a board that calibrated `cameras` see at one instant, each in one of
     `views`, and what is left of its corners, root mean square [pixels]."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
@@ -13,6 +14,7 @@ from pico.backends.hardware.walking import FIRST_SPEED
 from pico.bench.calibrating.at_table import AtTable, Stopped
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.bench.calibrating.progress import Posture, Progress
+from pico.bench.calibrating.table import ABOVE
 from pico.cameras.postures import postures, seen_by
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
@@ -22,6 +24,7 @@ from pico.motion.built.poses import reached
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Blocked, MovePath
 from pico.vision.arm import FoundArm
+from pico.vision.calibration import Calibration
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import find_board
 from pico.vision.lens import board_in
@@ -49,12 +52,12 @@ MISFIT = 0.5
 """Corners that are farther off than this [pixels] are of a board that moved while it was looked at."""
 
 
-def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple[FoundArm, Provenance, str]:
-    """Find how an arm is built: how, and in words. It shows the board to `cameras`, which are calibrated. Raises
-    PicoError; Stopped if a person says no."""
+def arm_of(at: AtTable, robot: str, known: Calibration) -> tuple[FoundArm, Provenance, str]:
+    """Find how an arm is built: how, and in words. It shows the board to the cameras over the table, which are `known`.
+    Raises PicoError; Stopped if a person says no."""
     import numpy as np
 
-    over = {name: camera for name, camera in cameras.items() if camera.robot is None}
+    over = {name: camera for name, camera in known.cameras.items() if camera.robot is None}
     least, board = min(2, len(over)), grip()
     home, paths = ways_from(at, robot, lambda tool: seen_by(list(over.values()), tool @ board) >= least)
     speed = FIRST_SPEED if robot in at.wait(at.device.untried()) else NEAR
@@ -67,13 +70,14 @@ def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple
         raise Stopped
     at.require_dark("an arm that moves")
     at.wait(_show_all(at, robot, home, paths, over, speed))
-    shown, known = at.progress.postures[robot], at.device.setup.lab.robots[robot]
+    shown, nominal = at.progress.postures[robot], at.device.setup.lab.robots[robot]
     at.keep(replace(at.progress, postures={n: one for n, one in at.progress.postures.items() if n != robot}))
     read, takes = np.array([one.read for one in shown if one.board is not None]), _numbered(shown)
     boards = np.array([one.board for one in shown if one.board is not None])
     read, boards = read.reshape(-1, 7), boards.reshape(-1, 4, 4)
-    found = fitted(robot, known, read, boards, takes)
-    out = _held_out(robot, known, read, boards, takes)
+    found = fitted(robot, nominal, read, boards, takes)
+    out = _held_out(robot, nominal, read, boards, takes)
+    found = replace(found, position=round(math.hypot(found.position, _seen_to(known, over)), 3))
     how = at.provenance(
         PROCEDURE, (*at.devices_of(robot), *(d for name in over for d in at.devices_of(name))), residual=found.position,
         held_out=out, unit="mm", uncertainty={"position_mm": found.position, "turn_deg": found.turn},
@@ -82,6 +86,12 @@ def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple
     said = f"{robot}: mount off by {shift:.2f} mm, tool by {float(np.linalg.norm(found.offsets.tool)):.2f} mm"
     held = "" if out is None else f", {out:.3f} mm in postures held out"
     return found, how, f"{said}; its tool is known to {found.position:.3f} mm, {found.turn:.3f} deg{held}"
+
+
+def _seen_to(known: Calibration, over: Mapping[str, CameraModel]) -> float:
+    """How well cameras know where a board above the table is [mm]: what they all have wrong shows in no residual."""
+    hows = (known.provenance.get(f"extrinsics/{name}") for name in over)
+    return max((how.uncertainty.get(ABOVE, 0.0) for how in hows if how), default=0.0)
 
 
 def _numbered(shown: Sequence[Posture]) -> list[int]:

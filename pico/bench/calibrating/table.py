@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 PROCEDURE = "extrinsics/1"
+ABOVE = "above_mm"
+"""What the uncertainty of where all cameras together see the board that is held up is called."""
 STILL = 0.5
 """How far datums may be seen apart since the board was shown [pixels]: beyond that, a camera was moved."""
 LOOSE = {"f": 5.0, "c": 5.0, "k": 0.01, "p": 1e-3}
@@ -93,8 +95,9 @@ def _together(
         )  # fmt: skip
         out = _held_out(at, seen[name], found.cameras[name], sigmas)
         provenance[f"extrinsics/{name}"] = at.provenance(
-            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px", uncertainty=of_pose(sigmas[LENS:])
-        )
+            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px",
+            uncertainty=of_pose(sigmas[LENS:]) | ({ABOVE: found.above} if found.above else {}),
+        )  # fmt: skip
         lines.append(_line(found.cameras[name], sigmas, left, out))
     return FoundCameras(found.cameras, provenance, found.residuals, found.position, tuple(lines))
 

@@ -171,7 +171,7 @@ class CalibrationWalk:
                 zero, how, line = axis(at, name)
                 known = replace(known, axes={**known.axes, name: zero})
             elif step == "arms":
-                arm, how, line = arm_of(at, name, known.cameras)
+                arm, how, line = arm_of(at, name, known)
                 known = self._without_hands(replace(known, arms={**known.arms, name: arm}), name)
             elif step == "hands":
                 camera = self.device.setup.lab.cameras[name]
