@@ -145,6 +145,12 @@ def offset(datum: Datum, camera: CameraModel, marker: Marker) -> float:
     return float(np.linalg.norm(there.mean(axis=0)[:2] - (datum.x, datum.y)))
 
 
+def farthest_datum(setup: Setup, picture: Markers, camera: CameraModel) -> float:
+    """Return how far from its place on the table the farthest datum is seen [mm], 0 if a camera sees none."""
+    seen = _datums_seen(setup, picture)
+    return max((offset(setup.lab.datums[name], camera, marker) for name, marker in seen.items()), default=0.0)
+
+
 def resection(corners: Array, pixels: Array, camera: CameraModel) -> Resection:
     """Return where a camera stands that sees points (n, 3) [mm] of its parent's frame at `pixels` (n, 2)."""
     from dataclasses import replace
