@@ -60,7 +60,7 @@ class Bundle:
     sigmas: Mapping[str, Array]
     """One standard deviation of each number of a camera (15,): nine of its lens, its place [mm], its turn [rad]."""
     above: float
-    """One standard deviation [mm], in each direction, of where all cameras see the boards that were held up."""
+    """One standard deviation [mm], in each direction, of where all cameras see the boards that were held up highest."""
 
 
 def bundle(
@@ -258,6 +258,7 @@ def _above(cameras: Mapping[str, CameraModel], boards: Mapping[int, Array], foun
     every, steps = list(cameras.values()), np.array(LENS_STEPS + POSE_STEPS)
     near = [[_shifted(camera, step) for step in np.diag(steps)] for camera in every]
     points = np.array([board[:3, 3] for board in boards.values()])
+    points = points[points[:, 2] >= np.median(points[:, 2])]  # as high as arms hold the board
     if len(every) < 2:  # along its ray a single camera knows a board by its size
         return 0.0
     block = found.covariance[: len(steps) * len(every), : len(steps) * len(every)]

@@ -108,6 +108,12 @@ def test_what_is_wrong_with_an_emulated_bench_is_found_and_then_gone_by(
         assert abs(lens(camera)[0] - lens(true[name])[0]) < 4 * sigmas["fx_px"]
         assert abs(lens(camera)[4] - lens(true[name])[4]) < 4 * sigmas["k1"]
 
+    lens_anew = pico(*EMULATED, "calibrate", "intrinsics", "--hands", "simulated", "--shots", "6")
+    assert lens_anew.code == 2 and "the lens was found anew since" in lens_anew.out, lens_anew.out + lens_anew.err
+    assert "`pico --bench emulated calibrate intrinsics extrinsics" in lens_anew.out
+    assert pico(*EMULATED, "calibrate", "extrinsics").code == 2
+    assert "found anew" not in pico(*EMULATED, "calibrate", "--list").out
+
     mounts = pico(*EMULATED, "calibrate", "axes", "dark", "--hands", "simulated", "-y")
     assert mounts.code == 2 and "turns the other way than the lab has it" in mounts.out, mounts.out + mounts.err
     axes = json.loads((wired / "calibration/emulated.json").read_text())["axes"]

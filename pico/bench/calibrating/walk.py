@@ -39,6 +39,8 @@ IMPORT = "imported/1"
 """The procedure of a lens that was calibrated elsewhere."""
 IMPORTED = {"f": 1.0, "c": 1.0, "k": 1e-3, "p": 1e-4}
 """One standard deviation of the numbers of such a lens, see `pico.bench.calibrating.table.LOOSE`."""
+KEPT = "kept; `extrinsics` writes it into the file"
+"""Why a lens that was found is still to be done."""
 LEAST_POSITION = 0.02
 """No position on the table counts as known better than this [mm]."""
 
@@ -81,18 +83,22 @@ class CalibrationWalk:
 
     def standing(self) -> tuple[StepStanding, ...]:
         """Return how each step stands, by the serial numbers of devices that answered so far."""
-        waiting = read_progress(self.device.place).provenance
-        return tuple(
-            replace(row, why="kept; `extrinsics` writes it into the file")
-            if row.why == "not done yet" and f"{row.step}/{row.subject}" in waiting else row
-            for row in standing_of(self.device, self.edge.now())
-        )  # fmt: skip
+        return tuple(self._waiting(row) for row in standing_of(self.device, self.edge.now()))
+
+    def _waiting(self, row: StepStanding) -> StepStanding:
+        """A step with what was found and is not in the file yet: a lens that waits for `extrinsics`."""
+        lens = read_progress(self.device.place).provenance.get(f"intrinsics/{row.subject}")
+        before = row.how.at if row.how else ""
+        if lens is None or row.step not in ("intrinsics", "extrinsics") or lens.at <= before:
+            return row
+        if row.step == "intrinsics":
+            return replace(row, why=KEPT)
+        return replace(row, why=row.why or "the lens was found anew since")
 
     def todo(self) -> tuple[CalibrationStep, ...]:
         """Return the steps that are still to be done, or again; asks the devices who they are."""
         self.bench.wait(self.device.links.instruments())
-        waiting, rows = read_progress(self.device.place).provenance, standing_of(self.device, self.edge.now())
-        left = {row.step for row in rows if row.why and f"{row.step}/{row.subject}" not in waiting}
+        left = {row.step for row in self.standing() if row.why and row.why != KEPT}
         return tuple(step for step in STEPS if step in left)
 
     def walk(self, steps: Sequence[CalibrationStep]) -> Iterator[Done]:
