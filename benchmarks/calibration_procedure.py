@@ -44,6 +44,7 @@ from pico.cameras.errors import true_cameras  # noqa: E402
 from pico.diagnostics import PicoError  # noqa: E402
 from pico.model.calibration.steps import CalibrationStep  # noqa: E402
 from pico.model.pose import Pose  # noqa: E402
+from pico.model.setup import Setup  # noqa: E402
 from pico.places.bench import BenchPlace  # noqa: E402
 from pico.twin.arms import arms_of  # noqa: E402
 from pico.vision.calibration_files import read_calibration  # noqa: E402
@@ -139,9 +140,18 @@ def calibrated(root: Path, seed: int, shots: int, arms: bool) -> tuple[dict[str,
         stated = f"said {said.position:.3f} mm, {said.turn:.3f} deg (one sigma each way)"
         print(f"  seed {seed}: tool off by {mm:.3f} mm, {deg:.3f} deg at p95; {stated}")
     level = known.dark["cam.image"]
-    black = setup.type_of("cam").number("black_level", "count") or 0.0
-    found["cam.image"] = level.level - black, level.sigma
+    found["cam.image"] = level.level - unlit(setup, root, "cam"), level.sigma
     return found, right
+
+
+def unlit(setup: Setup, root: Path, name: str) -> float:
+    """Return what a camera in the beam truly reads without light [count], at the exposure and gain that it has."""
+    kind, values = setup.type_of(name), load_world(setup, BenchPlace(root, "emulated"))[0].components[name].values
+    gain = float(values["gain"].value or 0.0) if "gain" in values else 0.0
+    black, full = kind.number("black_level", "count") or 0.0, 2 ** (kind.number("bit_depth", "bit") or 12) - 1
+    per_count = (kind.number("full_well", "") or 1e4) / (full - black) / 10 ** (gain / 20)
+    exposed = float(values["exposure"].value or 0.0) * 1e-3
+    return black + (kind.number("dark_current", "") or 0.0) * exposed / per_count
 
 
 def placements(root: Path, seed: int, count: int) -> list[float]:
@@ -173,7 +183,7 @@ def chances(count: int) -> tuple[float, float]:
     """Return the 95 % confidence interval of a ratio of sigma and scatter that is 1 by `count` values: of the root of
     chi square by its degrees of freedom (E. B. Wilson, M. M. Hilferty, PNAS 17, 684 (1931))."""
     share = 2 / (9 * count)
-    low, high = ((1 - share + z * share**0.5) ** 1.5 for z in (-1.96, 1.96))
+    low, high = (max(0.0, 1 - share + z * share**0.5) ** 1.5 for z in (-1.96, 1.96))
     return low, high
 
 
