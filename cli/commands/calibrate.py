@@ -82,7 +82,8 @@ def steps(
 ) -> int:  # fmt: skip
     """Calibrate a bench with devices step by step, with a person at its table.
 
-    Lenses and places of the cameras over the table, direction and zero of mounts that turn, dark levels of detectors.
+    Lenses and places of the cameras over the table, direction and zero of mounts that turn, dark levels of detectors,
+    arms and the cameras in their hands.
     Each step says what to do, shows how far it is, and writes a picture. What it finds goes into calibration/BENCH.json
     with how it was found; call it again to go on after a stop. `steps` may be left out before a STEP. In the
     simulator all is found at once, see `pico calibrate cameras`. Exit code 2: steps are left.

@@ -48,6 +48,10 @@ class Person:
         """Ask for the board in the hand of a robot, and return whether it is there."""
         return self._held(text)
 
+    def lay(self, pose: Any, board: Board, text: str) -> bool:
+        """Ask for the board on the table, and return whether it lies there."""
+        return self._held(text)
+
     def _held(self, text: str) -> bool:
         if sys.stdin is None or not sys.stdin.isatty():
             hint = "a person holds the board, at a terminal beside the table; on the emulated bench `--hands simulated`"

@@ -59,8 +59,10 @@ def _cameras(look: Look) -> str:
         else n
         for n in names
     ]  # fmt: skip
+    datums = look.sighting.datums
+    drifted = f", datums within {max(datums.values()):.2f} mm of it" if datums else ""
     made = f"calibrated {look.calibration.made_at}" if look.calibration.made_at else "not calibrated, as the lab says"
-    return paint("dim", f"cameras: {', '.join(said)} ({made})")
+    return paint("dim", f"cameras: {', '.join(said)} ({made}{drifted})")
 
 
 def data(setup: Setup, look: Look) -> dict[str, Any]:
@@ -73,7 +75,8 @@ def data(setup: Setup, look: Look) -> dict[str, Any]:
         slot = slot_at(setup, part.pose) if part.pose and part.presence == "seen" else None
         found = {k: v for k, v in as_json(part).items() if k != "values"}
         parts[name] = {**found, "slot": slot, "uncertain": doubtful(setup, name, part)}
-    cameras = {f.camera: {"black": f.camera in look.sighting.dark, "moved": moved.get(f.camera)} for f in look.frames}
+    cameras = {f.camera: {"black": f.camera in look.sighting.dark, "moved": moved.get(f.camera),
+                          "datums_mm": look.sighting.datums.get(f.camera)} for f in look.frames}  # fmt: skip
     return {
         "schema": "pico.scan/v1",
         "lab": setup.lab.name,

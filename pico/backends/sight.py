@@ -22,7 +22,7 @@ from pico.model.pose import Pose
 from pico.model.setup import Setup
 from pico.vision.anchor import SHARED, Drifting, anchored
 from pico.vision.calibration import Calibration
-from pico.vision.datums import ENOUGH, check, offset
+from pico.vision.datums import ENOUGH, check, farthest_datum, offset
 from pico.vision.localize import recognize, replace_dark
 from pico.vision.nominal import camera_models
 from pico.vision.rigid import apart
@@ -105,12 +105,14 @@ def seen_by(
     basis = calibration or Calibration(camera_models(setup))
     right = {p.camera: anchored(setup, basis.cameras[p.camera], p) for p in pictures}
     cameras = replace(basis, cameras={**basis.cameras, **right})
+    off: dict[str, float] = {}
     if calibration is None:
         drift = _displaced(setup, pictures, basis)
     else:
+        off = {p.camera: farthest for p in pictures if (farthest := farthest_datum(setup, p, basis.cameras[p.camera]))}
         drift, loose = _drifted(setup, pictures, basis)
         cameras = basis if drift or loose else cameras
-    sighting = replace(recognize(setup, pictures, cameras, held), drift=drift)
+    sighting = replace(recognize(setup, pictures, cameras, held), drift=drift, datums=off)
     return replace_dark(sighting, dark), cameras
 
 

@@ -67,8 +67,9 @@ class Cameras:
         known = {step: Provenance(bench="sim", evidence="simulated", at=found.made_at, by=by, procedure="simulated/1")
                  for step in results_of(found)}  # fmt: skip
         left = {name: round(value, 4) for name, value in found.residuals.items()}
-        return {step: replace(how, residual=left.get(step.partition("/")[2]), unit="px") if "trinsics/" in step else how
-                for step, how in known.items()}  # fmt: skip
+        seen = ("intrinsics", "extrinsics", "hands")
+        return {step: replace(how, residual=left.get(step.partition("/")[2]), unit="px")
+                if step.partition("/")[0] in seen else how for step, how in known.items()}  # fmt: skip
 
     def _require_empty_hands(self) -> None:
         exact = self.opened.setup.lab.sim.observe == "exact"

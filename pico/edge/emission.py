@@ -23,6 +23,7 @@ from pico.places.bench import BenchPlace
 from pico.planning.checks.beams import shutter_of
 from pico.planning.checks.emission import above, is_dark, lets_out, licensed, may_shine, refused, uncovers, why_not
 from pico.policy import arming, commissioning
+from pico.vision.calibration_files import calibration_digest
 
 if TYPE_CHECKING:
     from pico.edge.attempts import Executing
@@ -89,7 +90,7 @@ async def uncommissioned(
         report = read(place.root, able.name)
     except PicoError as exc:
         return (exc.diagnostics[0].summary,)
-    return commissioning.why_not(report, able.name, basis, now)
+    return commissioning.why_not(report, able.name, basis, now, calibration_digest(place.root, able.name) or "")
 
 
 async def require_commissioned(setup: Setup, place: BenchPlace, device: Device, now: str, given: Arming) -> None:

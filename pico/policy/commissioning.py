@@ -10,14 +10,26 @@ from pico.diagnostics import Diagnostic, error
 from pico.model.commissioning import CODE, STEPS, Basis, Commissioning, changed
 
 
-def why_not(report: Commissioning | None, bench: str, basis: Basis, now: str) -> tuple[str, ...]:
+def why_not(
+    report: Commissioning | None, bench: str, basis: Basis, now: str, calibration: str | None = None
+) -> tuple[str, ...]:  # fmt: skip
     """Return in words why a report does not count for a bench `now` (ISO 8601); empty where it does. All that is wrong
-    at once: steps that were not done or did not pass, those that are too old, and what was changed since."""
+    at once: steps that were not done or did not pass, those that are too old, and what was changed since.
+    `calibration`: the digest of the bench's calibration, empty without one; None if that does not matter."""
     if report is None:
         return ("it was never commissioned",)
     if report.bench != bench:
         return (f"the report is of the {report.bench} bench, and counts for that alone",)
-    return (*changed(report, basis), *_undone(report), *_aged(report, now))
+    return (*changed(report, basis), *_undone(report), *recalibrated(report, calibration), *_aged(report, now))
+
+
+def recalibrated(report: Commissioning, calibration: str | None) -> Iterator[str]:
+    """Yield in words that the calibration is not the one with which the bench was commissioned, if so; `calibration`:
+    see `why_not`."""
+    then = report.steps["calibration"].data.get("digest") if report.passed("calibration") else None
+    if calibration is not None and then and calibration != then:
+        now = f"{calibration[:19]} now" if calibration else "gone"
+        yield f"the calibration was changed since: {str(then)[:19]} was commissioned, and it is {now}"
 
 
 def until(report: Commissioning) -> datetime | None:

@@ -22,7 +22,7 @@ EARLIER = "calibration.json"
 """The file of labs of before: it says nothing of where it came from, and counts as simulated."""
 LARGEST = 4 * 1024 * 1024
 CODE = "calibration-file"
-_SEEN = ("intrinsics/", "extrinsics/", "arms/")
+_SEEN = ("intrinsics/", "extrinsics/", "arms/", "hands/")
 SIMULATED = "sim"
 """The bench that reads the file of before."""
 
@@ -100,7 +100,8 @@ def refused(found: Calibration, root: Path, bench: str) -> list[Diagnostic]:
 
 def results_of(found: Calibration) -> tuple[str, ...]:
     """Return the results of a calibration as its provenance names them."""
-    cameras = [f"{step}/{name}" for name in found.cameras for step in ("intrinsics", "extrinsics")]
+    cameras = [f"{step}/{name}" for name, camera in found.cameras.items()
+               for step in (("intrinsics", "extrinsics") if camera.robot is None else ("hands",))]  # fmt: skip
     of = {"arms": found.arms, "axes": found.axes, "dark": found.dark}
     return (*cameras, *(f"{step}/{name}" for step, each in of.items() for name in each))
 

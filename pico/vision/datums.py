@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.model.lab import Datum
 from pico.model.pose import Pose
@@ -45,6 +45,71 @@ def datum_corners(datum: Datum) -> Array:
     return corners
 
 
+@dataclass(frozen=True, eq=False)
+class SeenDatums:
+    """The datums that a picture shows: their corners (n, 3) [mm] in the table's frame, where these are seen (n, 2)
+    [pixels], and how well: the inverse (n / 4, 8, 8) of a root of the covariance of each marker [1/pixels], which gives
+    first two numbers of its middle alone, then six of its shape."""
+
+    corners: Array
+    pixels: Array
+    roots: Array
+
+    def whitened(self, off: Array) -> Array:
+        """Return by how much corners are off (2 n,), of unit variance if they are `off` (n, 2) [pixels] by noise; for
+        each datum two numbers of its middle, then six of its shape."""
+        import numpy as np
+
+        white: Array = np.einsum("mij,mj->mi", self.roots, off.reshape(-1, 8)).ravel()
+        return white
+
+    def without(self, datum: int) -> SeenDatums:
+        """Return all datums but one."""
+        import numpy as np
+
+        kept = np.arange(len(self.corners)) // 4 != datum
+        return SeenDatums(self.corners[kept], self.pixels[kept], np.delete(self.roots, datum, axis=0))
+
+
+def datums_in(setup: Setup, picture: Markers, camera: CameraModel) -> SeenDatums:
+    """Return the datums that a picture by `camera` shows.
+
+    Corners are read as if straight lines stayed straight across a marker; what the lens bends them by is put right.
+    """
+    import numpy as np
+
+    by_number = {datum.marker: datum for datum in setup.lab.datums.values()}
+    seen = [m for m in picture.markers if m.number in by_number and m.number not in picture.duplicates]
+    corners: list[Array] = [datum_corners(by_number[m.number]) for m in seen]
+    pixels: list[Array] = [m.corners - _bent(camera, at) for m, at in zip(seen, corners, strict=True)]
+    apart = np.kron(np.array(((1, 1, 1, 1), (1, -1, 1, -1), (1, 1, -1, -1), (1, -1, -1, 1))) / 2, np.eye(2))
+    roots: list[Array] = [np.linalg.inv(np.linalg.cholesky(apart @ m.covariance @ apart.T)) @ apart for m in seen]
+    return SeenDatums(
+        np.concatenate([np.zeros((0, 3)), *corners]), np.concatenate([np.zeros((0, 2)), *pixels]),
+        np.array(roots).reshape(-1, 8, 8),
+    )  # fmt: skip
+
+
+_ACROSS = 9  # points along an edge of a marker
+
+
+def _bent(camera: CameraModel, corners: Array) -> Array:
+    """How far (4, 2) [pixels] the corners of the homography that fits all of a marker best are from its corners, which
+    `camera` sees at `corners` (4, 3) [mm]."""
+    import cv2
+    import numpy as np
+
+    along, down = (a.ravel() for a in np.meshgrid(*(np.linspace(0.0, 1.0, _ACROSS),) * 2))
+    points = corners[0] + np.outer(along, corners[1] - corners[0]) + np.outer(down, corners[3] - corners[0])
+    there = camera.project(np.concatenate((corners, points)))
+    if not np.isfinite(there).all():
+        return np.zeros((4, 2))
+    straight, _ = cv2.findHomography(np.column_stack((along, down)), there[4:], 0)
+    unit: Any = np.array(((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0))).reshape(-1, 1, 2)
+    fitted: Array = cv2.perspectiveTransform(unit, straight).reshape(-1, 2) - there[:4]
+    return fitted
+
+
 def check(
     setup: Setup, picture: Markers, camera: CameraModel, accuracy: Accuracy
 ) -> tuple[CameraMoved | None, list[Finding]]:
@@ -78,6 +143,12 @@ def offset(datum: Datum, camera: CameraModel, marker: Marker) -> float:
 
     there = plane_points(MarkerView(camera, marker), 0.0)
     return float(np.linalg.norm(there.mean(axis=0)[:2] - (datum.x, datum.y)))
+
+
+def farthest_datum(setup: Setup, picture: Markers, camera: CameraModel) -> float:
+    """Return how far from its place on the table the farthest datum is seen [mm], 0 if a camera sees none."""
+    seen = _datums_seen(setup, picture)
+    return max((offset(setup.lab.datums[name], camera, marker) for name, marker in seen.items()), default=0.0)
 
 
 def resection(corners: Array, pixels: Array, camera: CameraModel) -> Resection:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from pico.diagnostics import PicoError, error
-from pico.vision.bundle import LEAST, LENS, LENS_STEPS, MISFIT, POSE_STEPS, intrinsics, lens, with_lens
+from pico.model.setup import Setup
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import BoardView
-from pico.vision.least_squares import solve
+from pico.vision.datums import SeenDatums, datum_corners
+from pico.vision.least_squares import noise_by_group, solve
 from pico.vision.rigid import motion, moved, rotation
 
 if TYPE_CHECKING:
@@ -19,11 +20,22 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
+LENS = 9
+"""Numbers of a lens: fx, fy, cx, cy, k1, k2, p1, p2, k3."""
+LENS_STEPS = (1e-2, 1e-2, 1e-2, 1e-2, 1e-5, 1e-5, 1e-6, 1e-6, 1e-5)
+POSE_STEPS = (1e-2,) * 3 + (1e-5,) * 3  # mm, rad
+CORNER_NOISE = 0.025
+"""One standard deviation of a corner [pixels], until a fit shows the noise of each picture."""
+FINEST = 0.002
+"""No corner counts as seen better than this [pixels]."""
+MISFIT = 1.0
+"""Corners that are farther off than this at the end [pixels, root mean square] were not seen by one lens."""
+
+LEAST = 6
+"""Pictures of the board that a camera needs."""
+
 EVERY = 4
 """Every so many pictures one is held out of the fit that is tried on it."""
-DATUM_NOISE = 0.05
-"""One standard deviation of a corner of a datum [pixels], at least."""
-
 LOOSER = 1.5
 """By how much the numbers of a lens are let go further than each is known alone: their errors go together."""
 
@@ -50,6 +62,43 @@ class FoundPlace:
     """One standard deviation of each number of its lens, of its place [mm] and its turn [rad]."""
     residual: float
     """What is left of the datums' corners, root mean square [pixels]."""
+    position: float
+    """One standard deviation of a position over the table that the camera sees [mm]."""
+
+
+def lens(camera: CameraModel) -> Array:
+    """Return the numbers of a camera's lens: fx, fy, cx, cy and its distortion."""
+    import numpy as np
+
+    k = camera.matrix
+    return np.array([k[0, 0], k[1, 1], k[0, 2], k[1, 2], *camera.distortion])
+
+
+def with_lens(camera: CameraModel, numbers: Array) -> CameraModel:
+    """Return the camera with another lens."""
+    import numpy as np
+
+    fx, fy, cx, cy = numbers[:4]
+    matrix: Any = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
+    return replace(camera, matrix=matrix, distortion=np.array(list(numbers[4:]), np.float64))
+
+
+def intrinsics(views: Sequence[BoardView], camera: CameraModel) -> tuple[CameraModel, list[Array]]:
+    """Return the camera with the lens that fits pictures of the board best (Zhang, PAMI 22, 1330 (2000)), and the pose
+    (4, 4) of the board in the camera's frame for each. Starts from the lens that `camera` has."""
+    import cv2
+    import numpy as np
+
+    points = [view.corners.astype(np.float32) for view in views]
+    pixels = [view.pixels.astype(np.float32).reshape(-1, 1, 2) for view in views]
+    start = camera.matrix.copy(), camera.distortion.copy()
+    _, matrix, distortion, turns, shifts = cv2.calibrateCamera(
+        points, pixels, camera.pixels, *start, flags=cv2.CALIB_USE_INTRINSIC_GUESS
+    )
+    poses = [motion(rotation(np.ravel(r)), np.ravel(t)) for r, t in zip(turns, shifts, strict=True)]
+    numbers = np.asarray(np.ravel(distortion)[:5], np.float64)
+    found = replace(camera, matrix=np.asarray(matrix, np.float64), distortion=numbers)
+    return found, poses
 
 
 def lens_of(views: Sequence[BoardView], start: CameraModel) -> FoundLens:
@@ -124,29 +173,91 @@ def _sigmas(views: Sequence[BoardView], camera: CameraModel, poses: Sequence[Arr
     return np.sqrt(np.maximum(np.diag(np.linalg.pinv(normal)), 0.0) * variance)
 
 
-def place_of(points: Array, pixels: Array, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
-    """Return where a camera stands that sees `points` (n, 3) [mm] of the table at `pixels` (n, 2). Its lens is known to
-    `lens_sigmas` (n,), and is fitted within these, so that the place is no more certain than the lens lets it be."""
+def place_of(setup: Setup, datums: SeenDatums, start: CameraModel, lens_sigmas: Array) -> FoundPlace:
+    """Return where a camera stands that sees `datums`. Its lens is known to `lens_sigmas` (n,), and is fitted within
+    these, so that the place is no more certain than the lens lets it be."""
     import numpy as np
 
     numbers, sure = lens(start), np.maximum(np.asarray(lens_sigmas, np.float64) * LOOSER, 1e-12)
 
-    many = len(numbers)
+    many, groups = len(numbers), np.zeros(2 * len(datums.corners), int)
+    noise: Array = np.ones(1)
 
     def at(change: Array) -> CameraModel:
         return with_lens(replace(start, pose=moved(start.pose, change[many:])), numbers + change[:many] * sure)
 
-    def residuals(change: Array) -> Array:
-        off = np.nan_to_num(at(change).project(points) - pixels, nan=1e4).ravel() / DATUM_NOISE
-        return np.concatenate([off, change[:many]])
+    def off(change: Array) -> Array:
+        return np.nan_to_num(at(change).project(datums.corners) - datums.pixels, nan=1e4)
 
-    found = solve(residuals, np.zeros(many + 6), np.array((1e-2,) * many + POSE_STEPS))
-    off = at(found.parameters).project(points) - pixels
-    left = float(np.sqrt(np.mean(np.sum(off**2, axis=1))))
-    free = max(1, 2 * len(points) - 6)
-    worse = max(1.0, float(np.sqrt(np.sum((off / DATUM_NOISE) ** 2) / free)))
-    sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0)) * worse
-    return FoundPlace(at(found.parameters), np.concatenate([sigmas[:many] * sure, sigmas[many:]]), left)
+    def residuals(change: Array) -> Array:
+        return np.concatenate([datums.whitened(off(change)) / noise, change[:many]])
+
+    steps = np.array((1e-2,) * many + POSE_STEPS)
+    found = solve(residuals, np.zeros(many + 6), steps)
+    noise = np.maximum(noise_by_group(found, noise, groups, np.zeros(1, int)), FINEST / CORNER_NOISE)
+    found = solve(residuals, found.parameters, steps)
+    left = float(np.sqrt(np.mean(np.sum(off(found.parameters) ** 2, axis=1))))
+    sigmas = np.sqrt(np.maximum(np.diag(found.covariance), 0.0))
+    camera, near = at(found.parameters), [at(found.parameters + step) for step in np.diag(steps)]
+    position = unsure(setup, camera, near, steps, found.covariance)
+    return FoundPlace(camera, np.concatenate([sigmas[:many] * sure, sigmas[many:]]), left, position)
+
+
+def unsure(
+    setup: Setup, camera: CameraModel, near: Sequence[CameraModel], steps: Array, covariance: Array
+) -> float:  # fmt: skip
+    """Return one standard deviation [mm] of a position over the table by a camera with numbers of a `covariance` (n,
+    n): where the datums are, and as high above them as the highest marker of a part, the worse of both. From straight
+    above, datums tell little of where a camera stands, which shows higher up.
+
+    `near`: the camera with each of its numbers changed by its step (n,).
+    """
+    import numpy as np
+
+    plates = [setup.type_of(name).geometry.marker for name in setup.lab.inventory]
+    datums, worst = np.concatenate([datum_corners(datum) for datum in setup.lab.datums.values()]), 0.0
+    for height in (0.0, max((plate.at[2] for plate in plates if plate), default=0.0)):
+        points = datums + np.array((0.0, 0.0, height))
+        there = camera.project(points)
+        inside = np.isfinite(there).all(axis=1)
+        columns = [(one.project(points) - there)[inside].ravel() / step for one, step in zip(near, steps, strict=True)]
+        jacobian = np.stack(columns, axis=1)
+        pixels = float(np.sqrt(np.einsum("ij,jk,ik->", jacobian, covariance, jacobian) / max(1, inside.sum())))
+        distance = float(np.mean(np.linalg.norm(points - camera.pose[:3, 3], axis=1)))
+        worst = max(worst, pixels * distance / float(camera.matrix[0, 0]))
+    return worst
+
+
+def unsure_above(
+    points: Array,
+    cameras: Sequence[CameraModel],
+    near: Sequence[Sequence[CameraModel]],
+    steps: Array,
+    covariance: Array,
+) -> float:
+    """Return one standard deviation [mm], in each direction, of where several cameras see one of `points` (n, 3) [mm]
+    together; `near`: each camera with each of its numbers changed by its step, `covariance`: of all their numbers."""
+    import numpy as np
+
+    pixels = [camera.project(points) for camera in cameras]
+    columns = []
+    for i, changed in enumerate(near):
+        for one, step in zip(changed, steps, strict=True):
+            columns.append((_met([*cameras[:i], one, *cameras[i + 1 :]], pixels) - points).ravel() / step)
+    jacobian = np.stack(columns, axis=1)
+    return float(np.sqrt(np.einsum("ij,jk,ik->", jacobian, covariance, jacobian) / points.size))
+
+
+def _met(cameras: Sequence[CameraModel], pixels: Sequence[Array]) -> Array:
+    """The points (n, 3) [mm] that are nearest to the rays behind `pixels` (n, 2) of each camera."""
+    import numpy as np
+
+    normal, right = np.zeros((len(pixels[0]), 3, 3)), np.zeros((len(pixels[0]), 3))
+    for camera, seen in zip(cameras, pixels, strict=True):
+        origin, ways = camera.rays(seen)
+        across = np.eye(3) - ways[:, :, None] * ways[:, None, :]
+        normal, right = normal + across, right + across @ origin
+    return np.asarray(np.linalg.solve(normal, right[..., None])[..., 0], np.float64)
 
 
 def board_in(views: Sequence[BoardView], cameras: Sequence[CameraModel]) -> tuple[Array, float]:

@@ -101,7 +101,8 @@ class Sighting:
 
     `drift`: cameras that have moved since they were calibrated. Where there are any, nothing here may be acted on.
     `toppled`: components that lie or lean. `checked`: cameras whose datums say that they have not moved;
-    `dark`: cameras whose pictures were black.
+    `dark`: cameras whose pictures were black. `datums`: how far from its place the farthest datum is seen by each
+    camera as it was calibrated [mm]: what the calibration has drifted by.
     """
 
     components: Mapping[str, SeenPart] = field(default_factory=dict)
@@ -111,6 +112,7 @@ class Sighting:
     drift: tuple[CameraMoved, ...] = ()
     checked: tuple[str, ...] = ()
     dark: tuple[str, ...] = ()
+    datums: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def trusted(self) -> bool:

@@ -186,8 +186,10 @@ def test_a_frame_that_is_lost_now_and_then_is_taken_again(tmp_path: Path) -> Non
 @pytest.mark.parametrize("camera", ["left", None])
 def test_cameras_that_moved_are_not_parts_that_moved(tmp_path: Path, camera: str | None) -> None:
     calibrated(tmp_path)
-    assert not observe(tmp_path).problems
+    seen = look(tmp_path)
+    assert not seen.observation.problems and 0 < max(seen.sighting.datums.values()) < 0.1
     sim(SETUP, tmp_path).world.bump(camera, shift=(3.0, 0.0, 0.0), turn=(0.0, 0.0, 0.0))
+    assert 2 < look(tmp_path).sighting.datums["left"] < 4, "how far the calibration has drifted is shown"
     with pytest.raises(PicoError, match="camera `left` has moved") as raised:
         observe(tmp_path)
     assert {d.code for d in raised.value.diagnostics} == {"calibration-drift"}

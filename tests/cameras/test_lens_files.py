@@ -12,11 +12,14 @@ import pytest
 
 from pico.cameras.lens_files import read_lens
 from pico.diagnostics import PicoError
+from pico.manifest.load import load_folder
 from pico.vision.calibration import camera_as_json, camera_from_json
 from pico.vision.camera import CameraModel
+from pico.vision.datums import SeenDatums
 from pico.vision.lens import place_of
 from pico.vision.rigid import apart, motion, rotation
 
+SHEL = Path(__file__).resolve().parents[2] / "labs" / "shel"
 MATRIX = [[1201.5, 0.0, 645.25], [0.0, 1199.0, 470.5], [0.0, 0.0, 1.0]]
 FIVE, EIGHT = [-0.11, 0.05, 3e-4, -2e-4, 0.01], [0.4, -0.1, 3e-4, -2e-4, 0.01, 0.5, -0.08, 0.005]
 FISHEYE = [-0.02, 0.01, -0.004, 0.001]
@@ -81,7 +84,8 @@ def test_a_lens_of_any_model_projects_as_opencv_does_and_is_kept(
         found, pose=motion(rotation(np.array([0.01, -0.01, 0.02])) @ found.pose[:3, :3], found.pose[:3, 3] + 3.0)
     )
     sigmas = np.array([0.5, 0.5, 0.5, 0.5, *(1e-4,) * len(found.distortion)])
-    placed = place_of(POINTS, found.project(POINTS), moved, sigmas)
+    datums = SeenDatums(POINTS, found.project(POINTS), np.tile(np.eye(8) / 0.05, (len(POINTS) // 4, 1, 1)))
+    placed = place_of(load_folder(SHEL).require()[0], datums, moved, sigmas)
     assert apart(placed.camera.pose, found.pose)[0] < 0.5 and placed.residual < 0.01
 
 

@@ -14,15 +14,26 @@ from commanding import Pico, edit
 
 from pico.backends.emulated.bench import PACE
 from pico.backends.emulated.hands import SimulatedHands
+from pico.bench.calibrating.walk import without
 from pico.cameras.errors import true_cameras
 from pico.manifest.load import load_folder
-from pico.vision.bundle import lens
-from pico.vision.calibration_files import read_calibration
+from pico.model.calibration.results import Provenance
+from pico.twin.arms import arms_of
+from pico.vision.arm import FoundArm
+from pico.vision.calibration import Calibration
+from pico.vision.calibration_files import read_calibration, write_calibration
+from pico.vision.lens import lens
 from pico.vision.rigid import apart
 
 DEVICES = Path(__file__).resolve().parents[2] / "examples" / "devices.yaml"
 EMULATED = ("--backend", "hardware", "--emulate")
 there = find_spec("xarm") and find_spec("ElliptecBus")
+HAND = """  hand:
+    driver: frames.camera
+    address: {host: 192.0.2.10, port: 5004}
+  cam:
+"""
+ARM = "    arm: {mount_position: 2 mm, mount_rotation: 0.3 deg, joint_zero: 0.1 deg, tool_position: 1 mm}\n"
 ERRORS = """  seed: 1
   errors:
     camera_position: 3 mm
@@ -97,6 +108,12 @@ def test_what_is_wrong_with_an_emulated_bench_is_found_and_then_gone_by(
         assert abs(lens(camera)[0] - lens(true[name])[0]) < 4 * sigmas["fx_px"]
         assert abs(lens(camera)[4] - lens(true[name])[4]) < 4 * sigmas["k1"]
 
+    lens_anew = pico(*EMULATED, "calibrate", "intrinsics", "--hands", "simulated", "--shots", "6")
+    assert lens_anew.code == 2 and "the lens was found anew since" in lens_anew.out, lens_anew.out + lens_anew.err
+    assert "`pico --bench emulated calibrate intrinsics extrinsics" in lens_anew.out
+    assert pico(*EMULATED, "calibrate", "extrinsics").code == 2
+    assert "found anew" not in pico(*EMULATED, "calibrate", "--list").out
+
     mounts = pico(*EMULATED, "calibrate", "axes", "dark", "--hands", "simulated", "-y")
     assert mounts.code == 2 and "turns the other way than the lab has it" in mounts.out, mounts.out + mounts.err
     axes = json.loads((wired / "calibration/emulated.json").read_text())["axes"]
@@ -143,6 +160,37 @@ def test_a_lens_that_was_calibrated_elsewhere_needs_no_board(wired: Path, pico: 
         off = known.cameras[name].pose[:3, 3] - true[name].pose[:3, 3]
         assert np.all(np.abs(off) < 4 * np.array([how.uncertainty[f"{axis}_mm"] for axis in "xyz"])), (off, how)
         assert known.provenance[f"intrinsics/{name}"].procedure == f"imported/1: {name}.json"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not there, reason="the extras xarm and thorlabs")
+def test_where_a_camera_sits_in_a_hand_is_found_and_forgotten_with_its_arm(
+    wired: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pico.bench.calibrating.arms.POSTURES", 12)
+    edit(wired / "devices.yaml", "  cam:\n", HAND)
+    edit(wired / "lab.yaml", "    distortion: 0.01\n", f"    distortion: 0.01\n{ARM}")
+    setup = load_folder(wired).require()[0]
+    true = true_cameras(setup, setup.lab.sim.errors, setup.lab.sim.seed)
+    built = arms_of(setup, setup.lab.sim.seed)["arm1"].built
+    how = Provenance(bench="emulated", evidence="emulated", at="2026-11-28T00:00:00Z")
+    over = {name: camera for name, camera in true.items() if camera.robot is None}
+    steps = [f"{step}/{name}" for name in over for step in ("intrinsics", "extrinsics")]
+    known = Calibration(over, arms={"arm1": FoundArm(offsets=built, position=0.02, turn=0.01)},
+                        provenance=dict.fromkeys((*steps, "arms/arm1"), how))  # fmt: skip
+    write_calibration(wired, "emulated", known)
+    asked = pico(*EMULATED, "calibrate", "--list")
+    assert "hands: lens and place" in asked.out and "✗ hand " in asked.out, asked.out
+    answer = pico(*EMULATED, "calibrate", "hands", "--hands", "simulated", "-y")
+    assert answer.code == 2 and "in the hand of arm1 by " in answer.out, answer.out + answer.err
+    found = read_calibration(wired, "emulated")
+    assert found is not None
+    said = found.provenance["hands/hand"].uncertainty
+    off = found.cameras["hand"].pose[:3, 3] - true["hand"].pose[:3, 3]
+    assert np.all(np.abs(off) < 4 * np.array([said[f"{axis}_mm"] for axis in "xyz"])), (off, said)
+    assert pico(*EMULATED, "status").code == 0, "a camera in a hand is none over the table"
+    left = without(found, {"hands/hand": ""})
+    assert "hands/hand" not in left.provenance and left.cameras.keys() == over.keys()
 
 
 METER = """  pm_meter:

@@ -19,7 +19,7 @@ def read(direction: int, zero: float, seed: int, period: float = 360.0, noise: f
 
 @pytest.mark.parametrize(("direction", "zero", "period"), [(1, 12.5, 180.0), (-1, 0.0, 180.0), (-1, -170.0, 360.0)])
 def test_direction_and_zero_are_found_and_the_error_bar_holds(direction: int, zero: float, period: float) -> None:
-    found = [zero_of("p1.angle", AT, read(direction, zero, seed, period), period, 0.5) for seed in range(200)]
+    found = [zero_of("p1.angle", AT, read(direction, zero, seed, period), period, 0.5) for seed in range(1000)]
     off = np.array([np.remainder(f.axis.zero - zero + period / 2, period) - period / 2 for f in found])
     sigmas = np.array([f.axis.sigma for f in found])
     assert {f.axis.direction for f in found} == {direction}

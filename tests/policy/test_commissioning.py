@@ -48,6 +48,19 @@ def test_what_was_not_done_or_failed_or_goes_on_is_named() -> None:
     assert why_not(but(reach=step("failed", told="a fence")), "hardware", BASIS, NOW) == ("reach failed: a fence",)
 
 
+def test_a_calibration_that_was_changed_since_is_told() -> None:
+    measured = StepResult(outcome="passed", at=NOW, by="Ada", told="", data={"digest": "sha256:" + 64 * "1"})
+    report = but(calibration=measured)
+    assert why_not(report, "hardware", BASIS, NOW, "sha256:" + 64 * "1") == ()
+    (other,) = why_not(report, "hardware", BASIS, NOW, "sha256:" + 64 * "2")
+    assert other == (
+        "the calibration was changed since: sha256:111111111111 was commissioned, and it is sha256:222222222222 now"
+    )
+    (gone,) = why_not(report, "hardware", BASIS, NOW, "")
+    assert gone.endswith("and it is gone")
+    assert why_not(report, "hardware", BASIS, NOW) == why_not(WHOLE, "hardware", BASIS, NOW, "sha256:2") == ()
+
+
 def test_a_report_counts_for_its_own_bench_alone() -> None:
     emulated = replace(WHOLE, bench="emulated")
     assert why_not(emulated, "emulated", BASIS, NOW) == ()

@@ -53,9 +53,9 @@ def seen(camera, pose: np.ndarray, rng) -> BoardView:
     return BoardView(camera.name, points, pixels + rng.normal(0, NOISE, pixels.shape))
 
 
-def table(camera, rng) -> Markers:
+def table(camera, rng, noise: float = NOISE) -> Markers:
     found = [
-        read_marker(d.marker, camera.project(datum_corners(d)) + rng.normal(0, NOISE, (4, 2)), camera.name)
+        read_marker(d.marker, camera.project(datum_corners(d)) + rng.normal(0, noise, (4, 2)), camera.name)
         for d in BENCH.lab.datums.values()
     ]
     return Markers(camera.name, tuple(found))

@@ -65,6 +65,17 @@ class SimulatedHands:
         self._world.in_hand = robot, board_sheet(askew @ grip(), board)
         return True
 
+    def lay(self, pose: Array, board: Board, text: str) -> bool:
+        """Lay the board on the table at about `pose` (4, 4) [mm], and return True."""
+        import numpy as np
+
+        from pico.cameras.board import board_sheet
+        from pico.vision.rigid import moved
+
+        x, y, _, _, _, turn = self._random.normal(0.0, np.repeat((PLACED, LEANT), 3))
+        self._world.shown = board_sheet(moved(pose, np.array((x, y, 0.0, 0.0, 0.0, turn))), board)
+        return True
+
     def read(self, address: str, unit: str, text: str) -> float:
         """Return what the scale of an axis shows; raises PicoError if nobody can read it."""
         component, _, tunable = address.partition(".")

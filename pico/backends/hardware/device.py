@@ -182,7 +182,8 @@ class HardwareDevice:
     async def _looked(self, bench: Instruments) -> Look:
         from pico.backends.sight import unlooked
 
-        frames = [await self._frame(bench, name) for name in sorted(bench.cameras)]
+        hands = {name for name, camera in self.setup.lab.cameras.items() if camera.robot is not None}
+        frames = [await self._frame(bench, name) for name in sorted(bench.cameras.keys() - hands)]
         known = await self._felt(bench, recall_hands(self.place))
         found = await asyncio.to_thread(self._seen, frames, known)
         if not frames:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -13,6 +14,7 @@ from pico.backends.hardware.walking import FIRST_SPEED
 from pico.bench.calibrating.at_table import AtTable, Stopped
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.bench.calibrating.progress import Posture, Progress
+from pico.bench.calibrating.table import ABOVE
 from pico.cameras.postures import postures, seen_by
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
@@ -22,6 +24,7 @@ from pico.motion.built.poses import reached
 from pico.motion.deferred import DeferredMotion
 from pico.motion.types import Blocked, MovePath
 from pico.vision.arm import FoundArm
+from pico.vision.calibration import Calibration
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import find_board
 from pico.vision.lens import board_in
@@ -49,13 +52,14 @@ MISFIT = 0.5
 """Corners that are farther off than this [pixels] are of a board that moved while it was looked at."""
 
 
-def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple[FoundArm, Provenance, str]:
-    """Find how an arm is built: how, and in words. It shows the board to `cameras`, which are calibrated. Raises
-    PicoError; Stopped if a person says no."""
+def arm_of(at: AtTable, robot: str, known: Calibration) -> tuple[FoundArm, Provenance, str]:
+    """Find how an arm is built: how, and in words. It shows the board to the cameras over the table, which are `known`.
+    Raises PicoError; Stopped if a person says no."""
     import numpy as np
 
-    over = {name: camera for name, camera in cameras.items() if camera.robot is None}
-    home, paths = _paths(at, robot, list(over.values()))
+    over = {name: camera for name, camera in known.cameras.items() if camera.robot is None}
+    least, board = min(2, len(over)), grip()
+    home, paths = ways_from(at, robot, lambda tool: seen_by(list(over.values()), tool @ board) >= least)
     speed = FIRST_SPEED if robot in at.wait(at.device.untried()) else NEAR
     at.asks.say(
         f"{robot} goes to {len(paths)} postures with the board in its hand and parks between them, its tool at "
@@ -66,13 +70,14 @@ def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple
         raise Stopped
     at.require_dark("an arm that moves")
     at.wait(_show_all(at, robot, home, paths, over, speed))
-    shown, known = at.progress.postures[robot], at.device.setup.lab.robots[robot]
+    shown, nominal = at.progress.postures[robot], at.device.setup.lab.robots[robot]
     at.keep(replace(at.progress, postures={n: one for n, one in at.progress.postures.items() if n != robot}))
     read, takes = np.array([one.read for one in shown if one.board is not None]), _numbered(shown)
     boards = np.array([one.board for one in shown if one.board is not None])
     read, boards = read.reshape(-1, 7), boards.reshape(-1, 4, 4)
-    found = fitted(robot, known, read, boards, takes)
-    out = _held_out(robot, known, read, boards, takes)
+    found = fitted(robot, nominal, read, boards, takes)
+    out = _held_out(robot, nominal, read, boards, takes)
+    found = replace(found, position=round(math.hypot(found.position, _seen_to(known, over)), 3))
     how = at.provenance(
         PROCEDURE, (*at.devices_of(robot), *(d for name in over for d in at.devices_of(name))), residual=found.position,
         held_out=out, unit="mm", uncertainty={"position_mm": found.position, "turn_deg": found.turn},
@@ -83,15 +88,23 @@ def arm_of(at: AtTable, robot: str, cameras: Mapping[str, CameraModel]) -> tuple
     return found, how, f"{said}; its tool is known to {found.position:.3f} mm, {found.turn:.3f} deg{held}"
 
 
+def _seen_to(known: Calibration, over: Mapping[str, CameraModel]) -> float:
+    """How well cameras know where a board above the table is [mm]: what they all have wrong shows in no residual."""
+    hows = (known.provenance.get(f"extrinsics/{name}") for name in over)
+    return max((how.uncertainty.get(ABOVE, 0.0) for how in hows if how), default=0.0)
+
+
 def _numbered(shown: Sequence[Posture]) -> list[int]:
     """How often the hand had taken the board in each posture in which it was seen, without gaps."""
     seen = [one.take for one in shown if one.board is not None]
     return [sorted(set(seen)).index(take) for take in seen]
 
 
-def _paths(at: AtTable, robot: str, cameras: Sequence[CameraModel]) -> tuple[MovePath | None, list[MovePath]]:
-    """Return the way of the arm to its park pose from where it stands, None if it is there, and free ways from postures
-    in which the board in the hand is seen."""
+def ways_from(
+    at: AtTable, robot: str, seen_in: Callable[[Array], bool]
+) -> tuple[MovePath | None, list[MovePath]]:  # fmt: skip
+    """Return the way of the arm to its park pose from where it stands, None if it is there, and free ways there from
+    postures in which the board is seen, as `seen_in` says of the pose (4, 4) of the tool. Raises PicoError."""
     import numpy as np
 
     setup, seen = at.device.setup, at.wait(at.edge.observe())
@@ -99,8 +112,7 @@ def _paths(at: AtTable, robot: str, cameras: Sequence[CameraModel]) -> tuple[Mov
         checks.require_empty(seen, robot)
     except Failed as exc:
         raise PicoError(exc.diagnostic) from exc
-    least, held, random = min(2, len(cameras)), grip(), np.random.default_rng(11)
-    joints = postures(setup, robot, POSTURES + SPARE, lambda tool: seen_by(cameras, tool @ held) >= least, random)
+    joints = postures(setup, robot, POSTURES + SPARE, seen_in, np.random.default_rng(11))
     motion, standing = DeferredMotion(setup), checks.standing(setup, seen)
     others = {name: other.joints for name, other in seen.robots.items() if name != robot}
     now = seen.robots[robot].joints
@@ -161,6 +173,17 @@ async def _showing(
     at: AtTable, robot: str, path: MovePath, cameras: Mapping[str, CameraModel], speed: float, take: int
 ) -> Posture:
     """Bring the arm to where a path begins, look, and go back along it."""
+    read, frames = await resting(at, robot, path, tuple(cameras), speed)
+    board = await asyncio.to_thread(_board, at, robot, frames, cameras)  # the loop hears of the arm meanwhile
+    await at.device.walk(path, speed)
+    return Posture(take, read, board)
+
+
+async def resting(
+    at: AtTable, robot: str, path: MovePath, cameras: Sequence[str], speed: float
+) -> tuple[Array, dict[str, Frame]]:
+    """Bring an arm from its park pose to where a path begins, and return what its encoders read there (7,) [rad] and
+    what `cameras` see. Raises Failed and PicoError."""
     import numpy as np
 
     at.require_dark("an arm that moves")
@@ -169,10 +192,7 @@ async def _showing(
     await at.device.links.pause(SETTLED)
     arm = (await at.device.links.instruments()).arms[robot]
     read = np.mean([(await arm.state()).joints for _ in range(READS)], axis=0)
-    frames = {name: await at.device.picture(name) for name in cameras}
-    board = await asyncio.to_thread(_board, at, robot, frames, cameras)  # the loop hears of the arm meanwhile
-    await at.device.walk(path, speed)
-    return Posture(take, read, board)
+    return read, {name: await at.device.picture(name) for name in cameras}
 
 
 def _board(at: AtTable, robot: str, frames: Mapping[str, Frame], cameras: Mapping[str, CameraModel]) -> Array | None:

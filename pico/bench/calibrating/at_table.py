@@ -48,6 +48,10 @@ class Hands(Protocol):
         """Hold the block behind the board between the fingers of a robot, as `text` says, and return whether it is."""
         ...
 
+    def lay(self, pose: Array, board: Board, text: str) -> bool:
+        """Lay the board on the table at about `pose` (4, 4) [mm], as `text` says, and return whether it lies there."""
+        ...
+
     def read(self, address: str, unit: str, text: str) -> float:
         """Return what the scale of an axis shows, in `unit`. Raises PicoError if nobody reads it."""
         ...

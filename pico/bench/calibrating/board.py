@@ -13,10 +13,9 @@ from pico.bench.calibrating.progress import Progress, Shot
 from pico.bench.calibrating.table import of_lens
 from pico.diagnostics import PicoError, error
 from pico.model.setup import Setup
-from pico.vision.bundle import LEAST, lens
 from pico.vision.camera import CameraModel
 from pico.vision.charuco import Board, BoardView, find_board
-from pico.vision.lens import lens_of
+from pico.vision.lens import LEAST, lens, lens_of
 from pico.vision.markers import detect
 from pico.vision.nominal import camera_models
 from pico.vision.rigid import motion, rotation

@@ -13,16 +13,19 @@ from pico.vision.calibration_files import stored_calibration
 
 
 def subjects_of(setup: Setup, bench: Instruments) -> dict[CalibrationStep, tuple[str, ...]]:
-    """Return the cameras, axes, detectors and arms that each step calibrates, as the lab's devices have them; asks no
-    device."""
+    """Return the cameras, axes, detectors, arms and hands that each step calibrates, as the lab's devices have them;
+    asks no device."""
     axes = (address for address, one in bench.tunables.items() if isinstance(one, Motorized))
+    arms = tuple(sorted(name for name, robot in setup.lab.robots.items() if robot.model == "xarm7"))
+    hands = (name for name, camera in setup.lab.cameras.items() if camera.robot in arms and name in bench.cameras)
     over = tuple(sorted(name for name, camera in setup.lab.cameras.items() if camera.robot is None))
     return {
         "intrinsics": over,
         "extrinsics": over,
         "axes": tuple(sorted(address for address in axes if _turns(setup, address))),
         "dark": tuple(sorted((*(f"{name}.image" for name in bench.sensors), *_meters(bench)))),
-        "arms": tuple(sorted(name for name, robot in setup.lab.robots.items() if robot.model == "xarm7")),
+        "arms": arms,
+        "hands": tuple(sorted(hands)),
     }  # fmt: skip
 
 

@@ -11,10 +11,10 @@ from pico.bench.calibrating.at_table import AtTable
 from pico.bench.calibrating.pictured import corners_drawn
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import Provenance
-from pico.vision.bundle import LENS, bundle, datums_in, lens
+from pico.vision.bundle import bundle
 from pico.vision.camera import CameraModel
-from pico.vision.datums import ENOUGH, datum_corners
-from pico.vision.lens import place_of
+from pico.vision.datums import ENOUGH, SeenDatums, datum_corners, datums_in
+from pico.vision.lens import LENS, lens, place_of
 from pico.vision.markers import Markers, detect
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     Array = NDArray[np.float64]
 
 PROCEDURE = "extrinsics/1"
+ABOVE = "above_mm"
+"""What the uncertainty of where all cameras together see the board that is held up is called."""
 STILL = 0.5
 """How far datums may be seen apart since the board was shown [pixels]: beyond that, a camera was moved."""
 LOOSE = {"f": 5.0, "c": 5.0, "k": 0.01, "p": 1e-3}
@@ -93,8 +95,9 @@ def _together(
         )  # fmt: skip
         out = _held_out(at, seen[name], found.cameras[name], sigmas)
         provenance[f"extrinsics/{name}"] = at.provenance(
-            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px", uncertainty=_of_pose(sigmas[LENS:])
-        )
+            PROCEDURE, at.devices_of(name), residual=left, held_out=out, unit="px",
+            uncertainty=of_pose(sigmas[LENS:]) | ({ABOVE: found.above} if found.above else {}),
+        )  # fmt: skip
         lines.append(_line(found.cameras[name], sigmas, left, out))
     return FoundCameras(found.cameras, provenance, found.residuals, found.position, tuple(lines))
 
@@ -106,33 +109,30 @@ def _alone(
     known: Mapping[str, tuple[CameraModel, Provenance]],
 ) -> FoundCameras:
     """Each camera by the datums that it sees, with the lens that it has."""
-    import numpy as np
-
     placed, provenance, residuals, lines, worst = {}, dict[str, Provenance](), {}, list[str](), 0.0
     for name in cameras:
         camera, how = known[name]
-        points, pixels = _require_datums(at, name, seen[name])
-        found = place_of(points, pixels, camera, _sigmas_of(camera, how))
+        datums = _require_datums(at, name, seen[name], camera)
+        found = place_of(at.device.setup, datums, camera, _sigmas_of(camera, how))
         out = _held_out(at, seen[name], found.camera, found.sigmas)
         placed[name], residuals[name] = found.camera, round(found.residual, 4)
         provenance[f"intrinsics/{name}"] = how
         provenance[f"extrinsics/{name}"] = at.provenance(
             PROCEDURE, at.devices_of(name), residual=found.residual, held_out=out, unit="px",
-            uncertainty=_of_pose(found.sigmas[-6:]),
+            uncertainty=of_pose(found.sigmas[-6:]),
         )  # fmt: skip
-        high = float(np.mean(np.linalg.norm(points - found.camera.pose[:3, 3], axis=1)))
-        worst = max(worst, max(found.residual, 0.05) * high / float(found.camera.matrix[0, 0]))
+        worst = max(worst, found.position)
         lines.append(_line(found.camera, found.sigmas, found.residual, out))
     return FoundCameras(placed, provenance, residuals, worst, tuple(lines))
 
 
-def _require_datums(at: AtTable, name: str, picture: Markers) -> tuple[Array, Array]:
-    points, pixels = datums_in(at.device.setup, picture)
-    if len(points) < 4 * ENOUGH:
-        text = f"camera `{name}` sees {len(points) // 4} datums; {ENOUGH} is the least"
+def _require_datums(at: AtTable, name: str, picture: Markers, camera: CameraModel) -> SeenDatums:
+    datums = datums_in(at.device.setup, picture, camera)
+    if len(datums.corners) < 4 * ENOUGH:
+        text = f"camera `{name}` sees {len(datums.corners) // 4} datums; {ENOUGH} is the least"
         hint = f"the lab needs {ENOUGH} datums or more that every camera sees (`datums` of the Lab)"
         raise PicoError(error("calibration-datums", text, hint=hint, address=name))
-    return points, pixels
+    return datums
 
 
 def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array) -> float | None:
@@ -140,14 +140,13 @@ def _held_out(at: AtTable, picture: Markers, camera: CameraModel, sigmas: Array)
     if too few would be left."""
     import numpy as np
 
-    points, pixels = datums_in(at.device.setup, picture)
-    if len(points) < 4 * (ENOUGH + 1):
+    datums = datums_in(at.device.setup, picture, camera)
+    if len(datums.corners) < 4 * (ENOUGH + 1):
         return None
     squares = []
-    for i in range(0, len(points), 4):
-        others = np.r_[0:i, i + 4 : len(points)]
-        placed = place_of(points[others], pixels[others], camera, sigmas[:-6]).camera
-        squares.append(np.sum((placed.project(points[i : i + 4]) - pixels[i : i + 4]) ** 2, axis=1))
+    for i in range(len(datums.corners) // 4):
+        placed, own = place_of(at.device.setup, datums.without(i), camera, sigmas[:-6]).camera, slice(4 * i, 4 * i + 4)
+        squares.append(np.sum((placed.project(datums.corners[own]) - datums.pixels[own]) ** 2, axis=1))
     return float(np.sqrt(np.mean(squares)))
 
 
@@ -169,7 +168,8 @@ def _sigmas_of(camera: CameraModel, how: Provenance) -> Array:
     return np.array([how.uncertainty.get(name, LOOSE[name[:1]]) for name in names_of(camera)])
 
 
-def _of_pose(sigmas: Array) -> dict[str, float]:
+def of_pose(sigmas: Array) -> dict[str, float]:
+    """Return the uncertainties of place [mm] and turn [deg] of a camera by name; `sigmas` (6,): mm, rad."""
     names = ("x_mm", "y_mm", "z_mm", "turn_x_deg", "turn_y_deg", "turn_z_deg")
     return {
         name: float(v) * (1.0 if name.endswith("mm") else 180 / math.pi) for name, v in zip(names, sigmas, strict=True)
@@ -189,7 +189,5 @@ def _drawn(at: AtTable, frame: Frame, seen: Markers, camera: CameraModel) -> Non
 
     points = np.concatenate([datum_corners(datum) for datum in at.device.setup.lab.datums.values()])
     there = camera.project(points)
-    _, pixels = datums_in(at.device.setup, seen)
-    corners_drawn(
-        frame.gray, [pixels], at.pictures / f"extrinsics-{camera.name}.png", [there[np.isfinite(there).all(1)]]
-    )
+    pixels = [marker.corners for marker in seen.markers]
+    corners_drawn(frame.gray, pixels, at.pictures / f"extrinsics-{camera.name}.png", [there[np.isfinite(there).all(1)]])

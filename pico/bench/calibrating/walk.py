@@ -17,6 +17,7 @@ from pico.bench.calibrating.at_table import SHOTS, Asking, AtTable, Hands
 from pico.bench.calibrating.axes import axis
 from pico.bench.calibrating.board import intrinsics
 from pico.bench.calibrating.dark import dark
+from pico.bench.calibrating.hands import hand_of
 from pico.bench.calibrating.progress import read_progress
 from pico.bench.calibrating.subjects import standing_of
 from pico.bench.calibrating.table import FoundCameras, extrinsics, names_of
@@ -38,6 +39,8 @@ IMPORT = "imported/1"
 """The procedure of a lens that was calibrated elsewhere."""
 IMPORTED = {"f": 1.0, "c": 1.0, "k": 1e-3, "p": 1e-4}
 """One standard deviation of the numbers of such a lens, see `pico.bench.calibrating.table.LOOSE`."""
+KEPT = "kept; `extrinsics` writes it into the file"
+"""Why a lens that was found is still to be done."""
 LEAST_POSITION = 0.02
 """No position on the table counts as known better than this [mm]."""
 
@@ -80,18 +83,22 @@ class CalibrationWalk:
 
     def standing(self) -> tuple[StepStanding, ...]:
         """Return how each step stands, by the serial numbers of devices that answered so far."""
-        waiting = read_progress(self.device.place).provenance
-        return tuple(
-            replace(row, why="kept; `extrinsics` writes it into the file")
-            if row.why == "not done yet" and f"{row.step}/{row.subject}" in waiting else row
-            for row in standing_of(self.device, self.edge.now())
-        )  # fmt: skip
+        return tuple(self._waiting(row) for row in standing_of(self.device, self.edge.now()))
+
+    def _waiting(self, row: StepStanding) -> StepStanding:
+        """A step with what was found and is not in the file yet: a lens that waits for `extrinsics`."""
+        lens = read_progress(self.device.place).provenance.get(f"intrinsics/{row.subject}")
+        before = row.how.at if row.how else ""
+        if lens is None or row.step not in ("intrinsics", "extrinsics") or lens.at <= before:
+            return row
+        if row.step == "intrinsics":
+            return replace(row, why=KEPT)
+        return replace(row, why=row.why or "the lens was found anew since")
 
     def todo(self) -> tuple[CalibrationStep, ...]:
         """Return the steps that are still to be done, or again; asks the devices who they are."""
         self.bench.wait(self.device.links.instruments())
-        waiting, rows = read_progress(self.device.place).provenance, standing_of(self.device, self.edge.now())
-        left = {row.step for row in rows if row.why and f"{row.step}/{row.subject}" not in waiting}
+        left = {row.step for row in self.standing() if row.why and row.why != KEPT}
         return tuple(step for step in STEPS if step in left)
 
     def walk(self, steps: Sequence[CalibrationStep]) -> Iterator[Done]:
@@ -170,14 +177,28 @@ class CalibrationWalk:
                 zero, how, line = axis(at, name)
                 known = replace(known, axes={**known.axes, name: zero})
             elif step == "arms":
-                arm, how, line = arm_of(at, name, known.cameras)
-                known = replace(known, arms={**known.arms, name: arm})
+                arm, how, line = arm_of(at, name, known)
+                known = self._without_hands(replace(known, arms={**known.arms, name: arm}), name)
+            elif step == "hands":
+                camera = self.device.setup.lab.cameras[name]
+                eye, how, line = hand_of(at, name, known.cameras, known.arms[camera.robot or ""])
+                known = replace(
+                    known, cameras={**known.cameras, name: eye.camera},
+                    residuals={**known.residuals, name: round(eye.residual, 4)},
+                )  # fmt: skip
             else:
                 level, how, line = dark(at, name)
                 known = replace(known, dark={**known.dark, name: level})
             self._keep(replace(known, provenance={**known.provenance, f"{step}/{name}": how}))
             lines.append(line)
         return tuple(lines)
+
+    def _without_hands(self, known: Calibration, robot: str) -> Calibration:
+        """Leave out where the cameras in the hand of a robot are: that was told by the arm as it was known before."""
+        hands = [name for name, camera in known.cameras.items() if camera.robot == robot]
+        for name in hands:
+            self.asks.say(f"hands/{name} is left out of {self.file.name}: {robot} was calibrated anew.")
+        return without(known, {f"hands/{name}": "" for name in hands})
 
     def _lenses(self, at: AtTable) -> dict[str, tuple[CameraModel, Provenance]]:
         """The cameras whose lens is known, with how it was found: what was found last counts."""
@@ -213,10 +234,10 @@ class CalibrationWalk:
 def without(known: Calibration, results: Mapping[str, str]) -> Calibration:
     """Return a calibration without some `results` (`step/subject`); a camera without lens or place is none."""
     of = {step: {r.partition("/")[2] for r in results if r.partition("/")[0] == step} for step in STEPS}
-    cameras = {n: c for n, c in known.cameras.items() if n not in of["intrinsics"] | of["extrinsics"]}
+    cameras = {n: c for n, c in known.cameras.items() if n not in of["intrinsics"] | of["extrinsics"] | of["hands"]}
     gone = {
         *results,
-        *(f"{s}/{n}" for n in known.cameras.keys() - cameras.keys() for s in ("intrinsics", "extrinsics")),
+        *(f"{s}/{n}" for n in known.cameras.keys() - cameras.keys() for s in ("intrinsics", "extrinsics", "hands")),
     }
     return replace(
         known, cameras=cameras, residuals={n: v for n, v in known.residuals.items() if n in cameras},

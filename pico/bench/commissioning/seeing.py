@@ -29,17 +29,23 @@ def calibration(at: AtBench) -> Found:
     rows = standing_of(at.device, at.edge.now())
     wrong = [*_missing(rows, name)]
     wrong += [replace(one, severity="error") for one in not_counting(root, name)]
+    datums: Mapping[str, float] = {}
     if not wrong:
-        wrong = [one for one in at.bench.cameras.scan().observation.problems if one.severity == "error"]
+        look = at.bench.cameras.scan()
+        datums = look.sighting.datums
+        wrong = [one for one in look.observation.problems if one.severity == "error"]
     known = None if wrong else read_calibration(root, name)
     if known is None:
         raise PicoError(wrong)
     age = max((row.age for row in rows if row.age is not None), default=None)
     steps = {f"{row.step}/{row.subject}": row.how.at for row in rows if row.how}
     data = {"made_at": known.made_at, "age_days": age and round(age, 2), "digest": known.digest,
-            "position_mm": known.accuracy.position, "steps": steps}  # fmt: skip
+            "position_mm": known.accuracy.position, "steps": steps,
+            "datums_mm": {name: round(off, 3) for name, off in datums.items()}}  # fmt: skip
     aged = f"its oldest result is {age:.1f} days old" if age is not None else "of no known date"
-    return Found(told=f"{aged}, a position on the table is known to {known.accuracy.position:.3f} mm", data=data)
+    sure = f"a position on the table is known to {known.accuracy.position:.3f} mm"
+    off = f", datums are seen within {max(datums.values()):.3f} mm of it now" if datums else ""
+    return Found(told=f"{aged}, {sure}{off}", data=data)
 
 
 def _missing(rows: Sequence[StepStanding], bench: str) -> Iterator[Diagnostic]:

@@ -25,7 +25,8 @@ from pico.edge.local import LocalEdge
 from pico.model.commissioning import BEFORE, CODE, DAYS, FILES, STEPS, Basis, Commissioning, Step, StepResult, changed
 from pico.model.record import record
 from pico.places.bench import BenchPlace
-from pico.policy.commissioning import until, why_not
+from pico.policy.commissioning import recalibrated, until, why_not
+from pico.vision.calibration_files import calibration_digest
 
 DOING: Mapping[Step, Callable[[AtBench], Found]] = {
     "devices": devices, "identities": identities, "calibration": calibration, "reach": reach, "motion": motion,
@@ -64,7 +65,8 @@ def standing_by_file(bench: Bench) -> Standing | None:
         return None
     kind: Literal["hardware", "emulated"] = "emulated" if name == EMULATED else "hardware"
     report = read(place.root, kind)
-    why = why_not(report, kind, report.basis if report else Basis(wired="", bench=""), clock.now())
+    of_then, known = report.basis if report else Basis(wired="", bench=""), calibration_digest(place.root, kind) or ""
+    why = why_not(report, kind, of_then, clock.now(), known)
     ends = until(report) if report else None
     said = clock.as_text(ends) if ends else ""
     return Standing(bench=kind, file=FILES[kind], report=report, why=why, until=said)
@@ -94,11 +96,12 @@ class Walk:
         """Return how it stands; asks the devices who they are, and moves nothing."""
         report = read(self.edge.place.root, self.name)
         try:
-            why = why_not(report, self.name, self._basis(), self.edge.now())
+            why = why_not(report, self.name, self._basis(), self.edge.now(), self._calibration())
         except PicoError as exc:
             of_then = report.basis if report else Basis(wired="", bench="")
             more = f" ({len(exc.diagnostics)} in all)" if len(exc.diagnostics) > 1 else ""
-            why = (*why_not(report, self.name, of_then, self.edge.now()), f"{exc.diagnostics[0].summary}{more}")
+            known = why_not(report, self.name, of_then, self.edge.now(), self._calibration())
+            why = (*known, f"{exc.diagnostics[0].summary}{more}")
         ends = until(report) if report else None
         said = clock.as_text(ends) if ends else ""
         return Standing(bench=self.name, file=FILES[self.name], report=report, why=why, until=said)
@@ -109,7 +112,8 @@ class Walk:
         if report is None or report.bench != self.name or changed(report, basis):
             return STEPS
         now = self.edge.now()
-        return tuple(s for s in STEPS if not report.passed(s) or _too_old(report, s, now))
+        other = {"calibration"} if any(recalibrated(report, self._calibration())) else set()
+        return tuple(s for s in STEPS if not report.passed(s) or s in other or _too_old(report, s, now))
 
     def walk(self, steps: tuple[Step, ...], days: float | None = None) -> Iterator[Done]:
         """Do steps, keep what each finds, and yield it; ends with the first that fails. What was found of another bench
@@ -164,6 +168,9 @@ class Walk:
             made = keep(Found(told=exc.diagnostics[0].summary, data=last), "failed")
             return Done(step=step, result=made, diagnostics=tuple(exc.diagnostics)), kept[0]
         return Done(step=step, result=keep(found, "begun" if found.begun else "passed")), kept[0]
+
+    def _calibration(self) -> str:
+        return calibration_digest(self.edge.place.root, self.name) or ""
 
     def _basis(self) -> Basis:
         return self.bench.wait(self.device.basis())

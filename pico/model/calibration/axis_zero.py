@@ -9,6 +9,9 @@ from dataclasses import dataclass
 from pico.diagnostics import PicoError, error
 from pico.model.calibration.results import AxisZero
 
+USUAL, COUNTS = 0.5, 4
+"""How far a reading of a scale is usually off, as a share of what it is read to, and as how many readings that counts:
+few readings may agree by chance."""
 LEAST = 4
 """Readings that tell direction and zero, with what is left of them."""
 CLEAR = 4.0
@@ -51,7 +54,8 @@ def zero_of(address: str, nominal: Sequence[float], read: Sequence[float], perio
         _wrap(read[i] - sign * nominal[i] - _fit(*_without(nominal, read, i), period, sign)[0], period)
         for i in range(count)
     ]
-    single = max(left * math.sqrt(count / (count - 1)), step / math.sqrt(12))
+    squares = left**2 * count + COUNTS * (USUAL * step) ** 2
+    single = max(math.sqrt(squares / (count - 1 + COUNTS - 2)), step / math.sqrt(12))  # the mean of the variance
     found = AxisZero(direction=1 if sign > 0 else -1, zero=zero, sigma=single / math.sqrt(count))
     return FoundZero(found, left, math.sqrt(sum(v * v for v in apart) / count))
 

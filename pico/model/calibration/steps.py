@@ -9,16 +9,17 @@ from pico.base import clock
 from pico.model.calibration.results import ACCEPTED, Provenance
 from pico.model.record import record
 
-CalibrationStep = Literal["intrinsics", "extrinsics", "axes", "dark", "arms"]
+CalibrationStep = Literal["intrinsics", "extrinsics", "axes", "dark", "arms", "hands"]
 STEPS: Mapping[CalibrationStep, str] = {
     "intrinsics": "the lens of each camera over the table, by the board that a person holds up",
     "extrinsics": "where each of these cameras stands, by the datums, which are the frame of the table",
     "axes": "direction and zero of each mount that turns, by its scale, which a person reads",
     "dark": "what cameras in the beam and power meters read without light",
-    "arms": "base, joints and tool of each arm, and the camera in its hand",
+    "arms": "base, joints and tool of each arm, by the board that it shows",
+    "hands": "lens and place of each camera in a hand, by the board on the table",
 }
 """What each step finds, in the order in which they are done."""
-BEFORE: Mapping[CalibrationStep, CalibrationStep] = {"extrinsics": "intrinsics", "arms": "extrinsics"}
+BEFORE: Mapping[CalibrationStep, CalibrationStep] = {"extrinsics": "intrinsics", "arms": "extrinsics", "hands": "arms"}
 """The step that must be done before another one."""
 
 
