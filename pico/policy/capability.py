@@ -31,7 +31,7 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
         text = f"the plan was made for {plan.fidelity}, and this bench is served in {able.fidelity}"
         yield error("fidelity", text, hint=f"plan again with `--fidelity {able.fidelity}`")
     for op in plan.operations:
-        if op.kind.by_hand:
+        if op.kind.by_hand and op.primitive not in able.primitives:
             yield _for_a_person(op, able)
         elif op.primitive not in able.primitives:
             text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
