@@ -118,7 +118,8 @@ def hand_warnings(draft: Draft, movers: Sequence[Mover]) -> list[Diagnostic]:
     return [
         warning(
             "operator", f"{m.name} must be moved by hand from {m.start} to {m.goal}: no arm may move it",
-            hint="apply waits for a person there; or write into the manifest where it stands", address=m.name,
+            hint="the simulator has a person who does that; on a real bench move it first, then plan again",
+            address=m.name,
         )
         for m in movers if m.holds and m.holds[0].robot is None
     ]  # fmt: skip
