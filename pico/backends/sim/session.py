@@ -20,7 +20,6 @@ from pico.backends.halting import sooner, way_out
 from pico.backends.pushed import pushed, with_pushed
 from pico.backends.ranging import MOST, Taken, in_vain, next_exposure, taken
 from pico.backends.routines import asked_of
-from pico.backends.sim import hands
 from pico.backends.sim.bodies import snapshot
 from pico.backends.sim.checks import refused, shut
 from pico.backends.sim.fault_effects import REST, Mishaps, driven_badly, on_the_way, strikes
@@ -29,6 +28,7 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.known import Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, WorldMover
+from pico.backends.sim.person import steps as hands
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.readings import Table
 from pico.backends.sim.senses import sensed

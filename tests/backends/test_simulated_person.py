@@ -11,7 +11,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from pico.backends.sim import hands
+from pico.backends.sim.person import steps as hands
 from pico.bench.bench import Bench
 from pico.model.catalog import PoseTolerance, Tunable
 from pico.model.pose import Pose, angle_between
