@@ -71,15 +71,14 @@ class Setup:
         kind = self.type_of(component).tunables.get(tunable)
         return kind is not None and kind.restore.kind == "request"
 
+    def loose(self, component: str) -> bool:
+        """Return whether `component` may be moved at all, by an arm or by a person: it is not bolted."""
+        return self.lab.inventory[component].pose is None and self.seating_of(component) != "bolted"
+
     def movable(self, component: str) -> bool:
         """Return whether an arm may move `component`: not bolted, has a grasp, and its type says that an arm does."""
         kind = self.type_of(component)
-        return (
-            self.lab.inventory[component].pose is None
-            and self.seating_of(component) != "bolted"
-            and kind.pose.mover == "arm"
-            and kind.geometry.grasp is not None
-        )
+        return self.loose(component) and kind.pose.mover == "arm" and kind.geometry.grasp is not None
 
     @remembered
     def measurables_of(self, name: str) -> Mapping[str, Measurable]:

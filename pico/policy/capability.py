@@ -9,7 +9,6 @@ from pico.diagnostics import Diagnostic, PicoError, error
 from pico.kernels.pipeline import source_of
 from pico.model.operation import Operation
 from pico.model.plan import Plan
-from pico.model.pose import Pose, angle_between
 
 
 def require_able(plan: Plan, able: Capabilities) -> None:
@@ -31,8 +30,8 @@ def _missing(plan: Plan, able: Capabilities) -> Iterator[Diagnostic]:
         text = f"the plan was made for {plan.fidelity}, and this bench is served in {able.fidelity}"
         yield error("fidelity", text, hint=f"plan again with `--fidelity {able.fidelity}`")
     for op in plan.operations:
-        if op.kind.by_hand:
-            yield _for_a_person(op, able)
+        if op.kind.by_hand and op.primitive not in able.primitives:
+            yield _for_a_person(op)
         elif op.primitive not in able.primitives:
             text = f"{able.name} ({able.fidelity}) cannot {op.primitive} {op.component}"
             yield error("capability", text, detail=f"{op.id} of the plan asks for it", address=op.component)
@@ -55,13 +54,8 @@ def _unmeasured(op: Operation, able: Capabilities) -> Diagnostic:
     return error("unmeasured", f"{op.address} can't be measured: {why}", hint=hint, address=op.address)
 
 
-def _for_a_person(op: Operation, able: Capabilities) -> Diagnostic:
+def _for_a_person(op: Operation) -> Diagnostic:
     what, by_hand = op.arguments.get("text") or f"only a person can move {op.component}", "do it by hand"
-    if able.simulated and "from" in op.arguments:
-        start, goal = (Pose(**op.arguments[key]["pose"]) for key in ("from", "to"))
-        by = {"dx": goal.x - start.x, "dy": goal.y - start.y, "dyaw": angle_between(start.yaw, goal.yaw)}
-        words = " ".join(f"--{key} {value:.10g}" for key, value in by.items() if round(value, 6))
-        by_hand = f"the hand of the simulated bench is `pico sim nudge {op.component} {words}`"
     rest = "" if op.reason.kind == "asked" else f"; `--exclude {op.component}` does the rest without it"
     hint = f"{by_hand}, then plan again{rest}" if rest else by_hand
     return error("operator", f"{op.component} needs a person: {what}", hint=hint, address=op.component)

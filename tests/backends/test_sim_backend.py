@@ -146,7 +146,7 @@ def test_looking_works_while_another_moves(bench: LocalEdge) -> None:
         (setting("laser", "shutter", "ajar"), "range", "open"),
         (setting("p1", "hue", 1.0), "bad-plan", "no tunable hue"),
         (setting("cam", "spectrum", None, primitive="measure"), "not-simulated", "not simulated"),
-        (setting("hwp", "pose", None, primitive="operator"), "operator", "needs a person"),
+        (setting("hwp", "pose", None, primitive="operator"), "bad-plan", "no tunable pose"),
     ],
 )
 def test_what_cannot_be_done_fails_with_its_reason_and_changes_nothing(
@@ -295,7 +295,7 @@ def test_what_it_can_do_is_said_before(bench: LocalEdge) -> None:
     able = asyncio.run(bench.describe())
     assert (able.name, able.evidence, able.robots) == ("sim", "kinematic", ("arm1",))
     assert able.lab_digest == SETUP.digest()
-    assert "operator" not in able.primitives
+    assert "operator" in able.primitives, "a simulated person does what only a person can do"
     assert {"p1.angle", "p1.pose", "left.frame", "cam.exposure", "cam.image", "cam.centroid"} <= able.measurables
     assert {"cam.pose", "left.pose"}.isdisjoint(able.measurables)
 

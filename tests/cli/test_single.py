@@ -238,16 +238,15 @@ def test_a_removed_component_is_missing_and_reset_brings_it_back(shel: Path, pic
     assert "storage/b2" in pico("status").out
 
 
-def test_advice_about_a_part_that_only_a_person_moves_has_no_option_that_the_command_lacks(
-    shel: Path, pico: Pico
-) -> None:
+def test_a_part_that_no_arm_may_move_is_moved_by_the_simulated_person(shel: Path, pico: Pico) -> None:
     edit(shel / "lab.yaml", "  p1:\n", "  p1:\n    seating: bolted\n")
-    refused = pico("move", "p1", "x+=5", "--yes")
-    assert refused.code != 0 and "needs a person" in refused.err and "--exclude" not in refused.err, refused.err
+    moved = pico("move", "p1", "x+=5", "--yes")
+    assert moved.code == 0 and "by hand" in moved.out, moved
 
 
-def test_a_lab_without_an_arm_is_valid_and_says_that_it_has_none(
-    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("fidelity", ["kinematic", "physics"])
+def test_in_a_lab_without_an_arm_a_person_moves_the_parts(
+    shel: Path, pico: Pico, monkeypatch: pytest.MonkeyPatch, fidelity: str
 ) -> None:
     assert pico("init", "bare").code == 0
     monkeypatch.chdir(shel / "bare")
@@ -256,6 +255,11 @@ def test_a_lab_without_an_arm_is_valid_and_says_that_it_has_none(
     Path("lab.yaml").write_text(head + rest[rest.index("policy:") :])
     assert pico("validate").code == 0, pico("validate").err
     edit(Path("state/table.yaml"), "    slot: storage/a2 ", "    pose: {x: 480, y: 420, yaw: 0} ")
-    refused = pico("plan")
-    said = refused.err + refused.out
-    assert "error[no-arm]: lens" in said and "the lab has no arm" in said and "gripper" not in said, said
+    done = pico("apply", "--yes", "--fidelity", fidelity)
+    assert done.code == 0 and "lens by hand to (480, 420, 0°)" in done.out, done
+    assert "The bench equals the manifest." in done.out and "no arm" not in done.out + done.err
+    assert pico("commit", "-m", "placed").code == 0
+    edit(Path("state/table.yaml"), "x: 480", "x: 520")
+    assert pico("apply", "--yes", "--fidelity", fidelity).code == 0
+    assert pico("undo", "--yes", "--fidelity", fidelity).code == 0
+    assert "(480, 420, 0°)" in pico("status").out

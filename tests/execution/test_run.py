@@ -14,6 +14,7 @@ from results import RunResult
 from tables import change_world
 
 from pico.backends.sim.hand import nudge, remove
+from pico.backends.sim.store import load_world
 from pico.backends.sim.world import World
 from pico.diagnostics import ExitCode, PicoError, error
 from pico.edge.local import LocalEdge
@@ -71,13 +72,13 @@ def test_a_plan_for_what_the_backend_cannot_do_is_refused_naming_all_of_it(bench
     assert "arm2" in str(found)
 
 
-def test_what_needs_a_person_is_refused_with_the_way_to_do_it(bench: LocalEdge) -> None:
-    moved, nudged = (changed(C3, {"hwp": {"pose": pose}}) for pose in (Pose(222, 420, 3), Pose(214.5, 420)))
-    found = refusal(bench, asyncio.run(plan_to(bench, moved)))
-    assert "hwp needs a person" in found.diagnostics[0].summary
-    hint = found.diagnostics[0].hint
-    assert "`pico sim nudge hwp --dyaw 3`" in hint and "--exclude hwp" in hint
-    assert f"--dx {-7.5}" in refusal(bench, asyncio.run(plan_to(bench, nudged))).diagnostics[0].hint
+def test_a_simulated_person_does_what_only_a_person_can(bench: LocalEdge) -> None:
+    goal = Pose(222, 420, 3)
+    planned, result, _ = apply(bench, changed(C3, {"hwp": {"pose": goal}}))
+    assert [op.component for op in planned.operations if op.primitive == "operator"] == ["hwp"]
+    assert result.outcome == "done"
+    body = load_world(bench.setup, bench.place)[0].components["hwp"]
+    assert body.pose is not None and 0 < body.pose.distance(goal) <= 0.5
 
 
 def test_a_plan_for_another_lab_is_stale(bench: LocalEdge) -> None:

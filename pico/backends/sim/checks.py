@@ -13,12 +13,7 @@ from pico.model.setup import Setup
 
 def refused(operation: Operation) -> Failed:
     """Return why the simulator does not do a primitive."""
-    name = operation.component
-    if operation.primitive == "operator":
-        what = operation.arguments.get("text") or f"only a person can move {name}"
-        hint = f"the hand of the simulated bench is `pico sim nudge {name}`"
-        return Failed(error("operator", f"{name} needs a person: {what}", hint=hint, address=name))
-    return Failed(not_simulated(name, operation.primitive))
+    return Failed(not_simulated(operation.component, operation.primitive))
 
 
 def not_simulated(component: str, what: str) -> Diagnostic:

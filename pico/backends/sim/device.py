@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from pico.twin.moment import Moment
     from pico.twin.snapshot import Snapshot
 
-PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range"})
+PRIMITIVES = frozenset({"move", "stow", "set", "home", "park", "measure", "auto_range", "operator"})
 
 
 @remembered

@@ -81,6 +81,12 @@ class KinematicWorld:
                 self._fallen.pop(operation.component, None)
         return {}
 
+    def put(self, component: str, pose: Pose) -> None:
+        """Let a person put a component down at a pose on the table."""
+        self._put_down(component, pose)
+        self._placed[component] = pose
+        self._fallen.pop(component, None)
+
     def _put_down(self, name: str, goal: Pose) -> None:
         body = self._start.components[name]
         now = self._start.with_body(name, seat=self._seats.get(name, body.seat))

@@ -37,6 +37,10 @@ class WorldMover(Protocol):
         """Bring `path.robot` along `path`, its gripper as it is."""
         ...
 
+    def put(self, component: str, pose: Pose) -> None:
+        """Let a person put a component down at a pose on the table."""
+        ...
+
     def stage(self, robot: str) -> Stage:
         """Return how far an arm really is on the path that it executes, or executed last."""
         ...

@@ -68,7 +68,7 @@ class PhysicsWorld:
         self._setup, self._learned = setup, learned
         self._start, self._seats = world, dict[str, Seat]()
         places = {name: place for name in world.components if (place := body_placement(setup, world, name))}
-        things = {n: SceneBody(setup.type_of(n).geometry, p, setup.movable(n)) for n, p in places.items()}
+        things = {n: SceneBody(setup.type_of(n).geometry, p, setup.loose(n)) for n, p in places.items()}
         self._own = tuple(things)
         for name, stranger in world.unknown.items():
             shape = Geometry(footprint=stranger.footprint, height=stranger.height, mass=1.0)
@@ -116,6 +116,12 @@ class PhysicsWorld:
             self.twin.grip(path.robot, path.segments[0].opening)
         yield from self._guarded(path.robot, walk(self.twin, path.robot, path.segments))
         return {}
+
+    def put(self, component: str, pose: Pose) -> None:
+        """Let a person put a component down at a pose on the table."""
+        stands = self.twin.placement(component).pose
+        turn = angle_between(stands.yaw, pose.yaw)
+        self.twin.pull(component, pose.x - stands.x, pose.y - stands.y, turn)
 
     def stage(self, robot: str) -> Stage:
         """Return how far an arm is on its path."""

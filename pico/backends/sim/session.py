@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import math
+import random
 import time
 from collections.abc import Callable, Generator, Mapping
 from contextlib import suppress
@@ -27,6 +28,7 @@ from pico.backends.sim.kinematic import KinematicWorld
 from pico.backends.sim.known import Exactly, Known
 from pico.backends.sim.measuring import measured, require_simulated
 from pico.backends.sim.mover import InProgress, WorldMover
+from pico.backends.sim.person import steps as hands
 from pico.backends.sim.plugins import plugged_in
 from pico.backends.sim.readings import Table
 from pico.backends.sim.senses import sensed
@@ -196,7 +198,7 @@ class WorldSession:
     def act(self, operation: Operation, key: str) -> InProgress:
         own = {"move": self._move, "stow": self._move, "park": self._park, "set": self._set, "home": self._set,
                "measure": self._measure, "auto_range": self._auto_range,
-               "take": self._take, "jog": self._jog, "let_go": self._let_go}  # fmt: skip
+               "operator": self._by_hand, "take": self._take, "jog": self._jog, "let_go": self._let_go}  # fmt: skip
         doing = own.get(operation.primitive, self._plugged_in)(operation, key)
         if operation.primitive in STEPS:
             return (yield from doing)
@@ -394,6 +396,29 @@ class WorldSession:
             yield seconds
             self._world = self._world.with_value(name, tunable, replace(live, value=value))
         return {"value": goal}
+
+    def _by_hand(self, operation: Operation, key: str) -> InProgress:
+        """Let the simulated person put a part where it goes, or set a tunable."""
+        name, draw = operation.component, random.Random(f"{self._world.seed} {key}")
+        checks.standing_pose(self._known.seen(), name)
+        yield operation.seconds
+        if "tunable" in operation.arguments:
+            tunable, kind = checks.setpoint(self._setup, operation)
+            goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
+            live = self._world.components[name].values[tunable]
+            value = hands.turned(kind, None if live.status == "unknown" else live.value, goal, draw)
+            self._world = self._world.with_value(name, tunable, ObservedValue(value=value))
+            return {"value": value, "by": "hand"}
+        _, goal_pose, slot = checks.places(operation)
+        pose = hands.put(goal_pose, self._setup.type_of(name).pose.tolerance, draw)
+        self._mover.put(name, pose)
+        self.store()
+        part = self._known.confirm(name, goal_pose)
+        if part.presence != "seen" or part.pose is None:
+            raise checks.not_standing(name, part.presence)
+        if wrong := checks.misplaced(self._setup, name, part.pose, goal_pose, slot):
+            raise Failed(wrong)
+        return {**checks.off(part.pose, goal_pose), "by": "hand"}
 
     def _park(self, operation: Operation, key: str) -> InProgress:
         robot = operation.robot or operation.component

@@ -104,7 +104,7 @@ def mover(
     places = [Place(pose, slot_at(setup, pose) if movable else None)]
     ends = turned(setup, slot, footprint) if slot and movable else [Place(goal, slot)]
     goals = tuple(range(1, 1 + len(ends)))
-    holds = _holds(setup, name, robots) if movable else (Hold(None),)
+    holds = _holds(setup, name, robots) if movable and setup.lab.robots else (Hold(None),)
     penalty = AVOID_PENALTY if part.stage == "avoid" else 0.0
     stages = movable and part.stage != "never"
     return Mover(name, kind.geometry, (*places, *ends), goals, (), holds, right, penalty, stages)

@@ -111,11 +111,15 @@ def asides(draft: Draft, movers: Sequence[Mover]) -> tuple[Mover, ...]:
     return tuple(_mover(draft, n, right=n not in draft.moving) for n in names)
 
 
-def hand_warnings(movers: Sequence[Mover]) -> list[Diagnostic]:
+def hand_warnings(draft: Draft, movers: Sequence[Mover]) -> list[Diagnostic]:
+    """Return a warning for each part of a lab with arms that only a person may move."""
+    if not draft.setup.lab.robots:
+        return []
     return [
         warning(
             "operator", f"{m.name} must be moved by hand from {m.start} to {m.goal}: no arm may move it",
-            hint="apply waits for a person there; or write into the manifest where it stands", address=m.name,
+            hint="the simulator has a person who does that; on a real bench move it first, then plan again",
+            address=m.name,
         )
         for m in movers if m.holds and m.holds[0].robot is None
     ]  # fmt: skip

@@ -18,7 +18,7 @@ from pico.planning.ordering.search import OrderedMove
 from pico.planning.ordering.solve import OrderedMoves
 from pico.planning.parts.movers import Place
 from pico.planning.passes.draft import Draft
-from pico.planning.passes.values import OPERATOR_SECONDS
+from pico.planning.passes.values import OPERATOR_SECONDS, hands_of
 
 MOVE_SECONDS = 10.0
 """What a pick and place takes where no motion is asked for [s]."""
@@ -61,7 +61,7 @@ def _moved(
         id=new_id(), component=actor.name, robot=step.hold.robot,
         primitive="operator" if step.hold.robot is None else "stow" if goal.slot else "move",
         arguments=_arguments(start, goal, step.hold.yaw if step.hold.robot else None, actor.name),
-        resources=owners or (actor.name, *sorted(draft.setup.lab.robots)),  # a person works where no arm moves
+        resources=owners or (actor.name, *hands_of(draft.setup)),
         reason=draft.goal.reason or reason, seconds=path.seconds if path else nominal,
     )  # fmt: skip
 

@@ -46,4 +46,4 @@ def moves_ordered(draft: Draft) -> Draft:
     return replace(
         draft, operations=(*draft.operations, *operations), bound=answer.tour.bound,
         staging=Staging(count=count, lower_bound=least, proven=count == least),
-    ).told(*hand_warnings(movers), *notes, *storage_note(answer))  # fmt: skip
+    ).told(*hand_warnings(draft, movers), *notes, *storage_note(answer))  # fmt: skip

@@ -93,11 +93,17 @@ def home_operation(name: str, tunable: str, kind: Tunable, live: Value | None, r
     )  # fmt: skip
 
 
+def hands_of(setup: Setup) -> tuple[str, ...]:
+    """Return what a step by hand keeps busy beside its part: all arms, for a person works where none moves; in a lab
+    without arms the person, who does one step after the other."""
+    return tuple(sorted(setup.lab.robots)) or ("person",)
+
+
 def _by_hand(setup: Setup, change: Change) -> Operation:
     text = f"set {change.tunable} of {change.component}: {change.text}"
     return Operation(
         id=new_id(), primitive="operator", component=change.component,
         arguments={"text": text, "tunable": change.tunable, "to": change.after},
-        resources=(change.component, *sorted(setup.lab.robots)),
+        resources=(change.component, *hands_of(setup)),
         reason=Reason(kind="operator", text="only a person can do this"), seconds=OPERATOR_SECONDS,
     )  # fmt: skip

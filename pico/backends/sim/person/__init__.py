@@ -1,0 +1,1 @@
+"""The simulated person at the bench."""
