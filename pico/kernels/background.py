@@ -3,6 +3,7 @@ and OpenCV at its top: kernels import it inside their functions."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import cv2
@@ -82,18 +83,28 @@ def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Pla
     """Return the plane through the blocks of `mask`, in a picture of means of `by` x `by` pixels. `least`: the variance
     of a pixel that the camera's noise makes by itself [count^2]."""
     h, w = coarse.shape
-    rows, columns = np.nonzero(mask)
-    basis = np.stack([np.ones(len(rows)), (columns + 0.5) / w - 0.5, (rows + 0.5) / h - 0.5], axis=1)
-    values = coarse[rows, columns].astype(np.float64)
-    keep = np.ones(len(values), bool)
+    places = np.flatnonzero(mask)
+    x, y = (np.broadcast_to(n, (h, w)).ravel()[places] for n in _places(h, w))
+    basis = np.stack([np.ones(len(places)), x, y])
+    values = coarse.ravel()[places].astype(np.float64)
+    weights = np.ones(len(values))
     for _ in range(3):
-        normal = np.linalg.inv(basis[keep].T @ basis[keep])
-        found = normal @ (basis[keep].T @ values[keep])
-        left = values - basis @ found
-        spread = float(left[keep].std()) + 1e-9
-        keep = np.abs(left) < _OUTLYING * spread
+        weighed = basis * weights
+        normal = np.linalg.inv(weighed @ basis.T)
+        found = normal @ (weighed @ values)
+        left = values - found @ basis
+        kept, squares = weights @ left, weights @ left**2
+        count = weights.sum()
+        spread = math.sqrt(max(squares / count - (kept / count) ** 2, 0)) + 1e-9
+        weights = (np.abs(left) < _OUTLYING * spread).astype(np.float64)
     variance = max(spread**2 * by**2, least)
     return Plane(float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
+
+
+def _places(h: int, w: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where the columns (1, w) and the rows (h, 1) of a picture are, as shares of its width and height from the
+    middle."""
+    return ((np.arange(w) + 0.5) / w - 0.5)[None], ((np.arange(h) + 0.5) / h - 0.5)[:, None]
 
 
 def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> Plane:

@@ -3,6 +3,7 @@ inside their functions."""
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import cv2
@@ -18,6 +19,10 @@ _SHARE = 0.25
 a pixel gives its neighbors 0.41 of what that one has."""
 _MOST = 20_000
 """Candidates beyond which a picture is grainy by itself, and no pixel of it is called defective."""
+_STRIP = 32
+"""Rows at a time."""
+_BANDS = 24
+"""Places down a picture at which its noise is looked at."""
 _AROUND = [(down, right) for down in (-1, 0, 1) for right in (-1, 0, 1) if down or right]
 
 
@@ -25,20 +30,19 @@ def defects(pixels: NDArray[Any], dark_variance: float, electrons_per_count: flo
     """Return the single pixels of a picture (h, w) that stand out from all of their neighbors, as no light of 3 px or
     more (D4sigma) does.
 
-    `dark_variance`: of a pixel without light [count^2]; `black` [count].
+    `pixels`: of 8 or 16 bits without a sign, or float32; `dark_variance`: of a pixel without light [count^2]; `black`
+    [count].
     """
-    values = _plain(pixels)
-    middle = cv2.medianBlur(values, 3)
-    apart = cv2.absdiff(values, middle)
-    least = max(np.sqrt(dark_variance), _scatter(apart), 0.5)
-    rows, columns = _candidates(apart, middle, least, electrons_per_count, black)
+    least = max(math.sqrt(dark_variance), _scatter(pixels), 0.5)
+    rows, columns = _candidates(pixels, least, electrons_per_count, black)
     if not 0 < len(rows) <= _MOST:
         return rows[:0], columns[:0]
-    light = np.maximum(middle[rows, columns].astype(float) - black, 0)
-    noise = np.sqrt(least**2 + light / electrons_per_count)
-    enough = apart[rows, columns] > _STANDS_OUT * noise
+    own = pixels[rows, columns].astype(float)
+    middle = median(np.concatenate([_neighbors(pixels, rows, columns), own[None]]), 0)
+    noise = np.sqrt(least**2 + np.maximum(middle - black, 0) / electrons_per_count)
+    enough = np.abs(own - middle) > _STANDS_OUT * noise
     rows, columns = rows[enough], columns[enough]
-    alone = lone(values, (rows, columns), 0.5)
+    alone = lone(pixels, (rows, columns), 0.5)
     return rows[alone], columns[alone]
 
 
@@ -56,11 +60,13 @@ def lone(pixels: NDArray[Any], places: Places, least: float) -> NDArray[np.bool_
     return alone
 
 
-def repair(values: NDArray[Any], places: Places) -> None:
-    """Put the median of its neighbors in the place of each defective pixel of `values` (h, w)."""
-    rows, columns = places
-    if len(rows):
-        values[rows, columns] = median(_neighbors(values, rows, columns), 0)
+def replacements(values: NDArray[Any], places: Places, dark: NDArray[Any] | None = None) -> NDArray[np.float64]:
+    """Return the median of the eight neighbors of each defective pixel of `values` (h, w), above those of `dark`."""
+    around = _neighbors(values, *places)
+    if dark is not None:
+        around -= _neighbors(dark, *places)
+    found: NDArray[np.float64] = median(around, 0)
+    return found
 
 
 def median(values: NDArray[Any], axis: int | None = None) -> Any:
@@ -73,32 +79,38 @@ def median(values: NDArray[Any], axis: int | None = None) -> Any:
     return np.partition(flat, middle, axis=along).take(middle, axis=along).mean(axis=along)
 
 
-def _plain(pixels: NDArray[Any]) -> NDArray[Any]:
-    """The picture in a type that OpenCV's median takes."""
-    if pixels.dtype in (np.uint8, np.uint16, np.float32):
-        return np.ascontiguousarray(pixels)
-    return pixels.astype(np.uint8 if pixels.dtype.kind == "b" else np.float32)
-
-
-def _candidates(
-    apart: NDArray[Any], middle: NDArray[Any], least: float, electrons_per_count: float, black: float
-) -> Places:
-    """Pixels farther from their median than a bound below `_STANDS_OUT` standard deviations: the chord of these, for
-    noise grows as the root of light, over the whole picture in one pass."""
-    top = max(float(cv2.minMaxLoc(middle)[1]) - black, 1.0)
-    low, high = _STANDS_OUT * least, _STANDS_OUT * float(np.sqrt(least**2 + top / electrons_per_count))
-    slope = (high - low) / top
-    over = cv2.addWeighted(apart, 1.0, middle, -slope, slope * black - low)
-    places = cv2.findNonZero(cv2.compare(over, np.zeros(1), cv2.CMP_GT))
-    if places is None:
-        return np.empty(0, np.intp), np.empty(0, np.intp)
-    columns, rows = places.reshape(-1, 2).T.astype(np.intp)
+def _candidates(pixels: NDArray[Any], least: float, electrons_per_count: float, black: float) -> Places:
+    """Pixels farther from the median of the nine about them than a bound below `_STANDS_OUT` standard deviations: the
+    chord of these, for noise grows as the root of light. Strip by strip, which stays in the cache of the processor."""
+    found, low = [np.empty((0, 2), np.intp)], _STANDS_OUT * least
+    for first in range(0, pixels.shape[0], _STRIP):
+        apart, middle = _apart(pixels, first, first + _STRIP)
+        if cv2.minMaxLoc(apart)[1] <= low:
+            continue
+        top = max(float(cv2.minMaxLoc(middle)[1]) - black, 1.0)
+        slope = (_STANDS_OUT * math.sqrt(least**2 + top / electrons_per_count) - low) / top
+        over = cv2.addWeighted(apart, 1.0, middle, -slope, slope * black - low, dtype=cv2.CV_32F)
+        places = cv2.findNonZero(cv2.compare(over, np.zeros(1), cv2.CMP_GT))
+        if places is not None:
+            found.append(places.reshape(-1, 2).astype(np.intp) + np.array([0, first]))
+    columns, rows = np.concatenate(found).T
     return rows, columns
 
 
-def _scatter(apart: NDArray[Any]) -> float:
+def _apart(pixels: NDArray[Any], first: int, last: int) -> tuple[NDArray[Any], NDArray[Any]]:
+    """How far the pixels of some rows are from the median of the nine about each, and that median."""
+    above = min(first, 1)
+    some = pixels[first - above : last + 1]
+    rows = slice(above, above + min(last, pixels.shape[0]) - first)
+    middle = cv2.medianBlur(some, 3)[rows]
+    return cv2.absdiff(some[rows], middle), middle
+
+
+def _scatter(pixels: NDArray[Any]) -> float:
     """One standard deviation of noise, from how far pixels are off the median of the nine about them."""
-    return float(median(apart[::8, ::8])) * 1.6
+    step = max(8, pixels.shape[0] // _BANDS)
+    some = [_apart(pixels, first, first + 4)[0][:, ::4].ravel() for first in range(0, pixels.shape[0] - 3, step)]
+    return float(median(np.concatenate(some))) * 1.6
 
 
 def _neighbors(values: NDArray[Any], rows: NDArray[np.intp], columns: NDArray[np.intp]) -> NDArray[np.float64]:

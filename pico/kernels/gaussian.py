@@ -97,12 +97,15 @@ def _determinant(variances: Array) -> float:
 
 def _patch(frame: Frame, start: Start, by: int) -> tuple[_Patch, Array]:
     """What is fitted to, and the start: peak, middle and variances [blocks], level."""
-    coarse = binned(start.signal, by)
     column, row = (start.moments[:2] - (by - 1) / 2) / by
     across, down, both = start.moments[2:] / by**2
     reach_x, reach_y = (max(4.0, _REACH * math.sqrt(v)) for v in (across, down))
     top, left = max(0, int(row - reach_y)), max(0, int(column - reach_x))
-    part = coarse[top : int(row + reach_y) + 2, left : int(column + reach_x) + 2].astype(np.float64)
+    bottom, right = (
+        min(int(at + reach) + 2, n // by)
+        for at, reach, n in zip((row, column), (reach_y, reach_x), start.shape, strict=True)
+    )
+    part = binned(start.part(slice(top * by, bottom * by), slice(left * by, right * by)), by).astype(np.float64)
     rows, columns = np.indices(part.shape)
     columns, rows = (columns + left).astype(float), (rows + top).astype(float)
     slopes = _slopes(columns.ravel(), rows.ravel(), by, frame)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pico.kernels.background import Plane, outside, plane, with_misfit
 from pico.kernels.beside import light_beside
 from pico.kernels.frame import Frame
-from pico.kernels.moments import Array, Box, above_plane, coarser, covariance, finer
+from pico.kernels.moments import Array, Box, above_plane, coarser, covariance, finer, within
 from pico.kernels.start import FINE, Start, found
 from pico.kernels.stripes import Stripes
 
@@ -48,10 +48,12 @@ class Spot:
     background: Plane
     stripes: Stripes | None
 
-    def behind(self, shape: tuple[int, int]) -> NDArray[np.float32]:
-        """Return the background at each pixel of the frame (h, w) [count]."""
-        flat = self.background.over(shape)
-        return flat if self.stripes is None else flat + self.stripes.over()
+    def behind(
+        self, shape: tuple[int, int], rows: slice = slice(None), columns: slice = slice(None)
+    ) -> NDArray[np.float32]:
+        """Return the background at each pixel of the frame (h, w), or of a part of it [count]."""
+        flat = self.background.over(shape, rows, columns)
+        return flat if self.stripes is None else flat + self.stripes.over(rows, columns)
 
 
 def spot(frame: Frame, iterated: bool = False) -> Spot | str:
@@ -74,7 +76,9 @@ def spot(frame: Frame, iterated: bool = False) -> Spot | str:
     if iterated and (why := _no_width(start, moments, by)):
         return why
     behind = with_misfit(behind, start.coarse, outside(start.coarse.shape, about), start.by)
-    own = covariance(start.signal, frame.electrons_per_count, box, behind, start.stripes, total, moments)
+    own = covariance(
+        start.part(*within(box)), frame.electrons_per_count, box, start.shape, behind, start.stripes, total, moments
+    )
     return Spot(total, moments, own + np.outer(by, by), box, behind, start.stripes)
 
 
@@ -85,10 +89,10 @@ def _region(start: Start, held: Array | None, least: float) -> tuple[float, Arra
     if isinstance(settled, str):
         return settled
     moments, behind = settled
-    shape = start.signal.shape
+    shape = start.shape
     box, tried = _box(moments, held, shape), list[Box]()
     for _ in range(_ROUNDS if start.width < FINE else _AT_LAST):
-        total, moments = above_plane(start.signal, box, behind)
+        total, moments = above_plane(start.part(*within(box)), box, shape, behind)
         if not _sane(total, moments, shape):
             return _adrift(start)
         tried.append(box)
@@ -154,14 +158,14 @@ def _settled(start: Start, held: Array | None, least: float) -> tuple[Array, Pla
     """Find the region over the means of blocks; the moments there in pixels of the frame, and the plane."""
     coarse, by, behind = start.coarse, start.by, start.background
     if by > 1 and start.width < FINE:
-        about = _in_blocks(_box(start.moments, None, start.signal.shape), by)
+        about = _in_blocks(_box(start.moments, None, start.shape), by)
         return start.moments, plane(coarse, outside(coarse.shape, about), by, least)
     moments = coarser(start.moments, by)
     widths = None if held is None else moments[2:]
     box = _box(moments, widths, coarse.shape)
     for _ in range(_ROUNDS):
         behind = plane(coarse, outside(coarse.shape, box), by, least)
-        total, moments = above_plane(coarse, box, behind)
+        total, moments = above_plane(coarse[within(box)], box, coarse.shape, behind)
         if not _sane(total, moments, coarse.shape):
             return _ADRIFT
         box, before = _box(moments, widths, coarse.shape), box
