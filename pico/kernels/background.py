@@ -29,10 +29,11 @@ _ALL = slice(None)
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A background: `level` [count], `slopes` across and down [count over the frame's whole width, height], all three
-    from the middle of the frame, with their `covariance` (3, 3); `variance` of one pixel about it [count^2], the
-    misfit of the plane included."""
+    """A background of a frame of `shape` (h, w): `level` [count], `slopes` across and down [count over the frame's
+    whole width, height], all three from the middle of the frame, with their `covariance` (3, 3); `variance` of one
+    pixel about it [count^2], the misfit of the plane included."""
 
+    shape: tuple[int, int]
     level: float
     slopes: tuple[float, float]
     covariance: NDArray[np.float64]
@@ -43,11 +44,24 @@ class Plane:
         """Level, slope across, slope down."""
         return np.array([self.level, *self.slopes])
 
-    def over(self, shape: tuple[int, int], rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
-        """Return the plane at each pixel of a picture (h, w) of the whole frame, or of a part of it."""
-        across, down = (((np.arange(n) + 0.5) / n - 0.5).astype(np.float32) for n in shape[::-1])
-        right, below = np.float32(self.slopes[0]) * across[columns], np.float32(self.slopes[1]) * down[rows]
-        return np.float32(self.level) + right + below[:, None]
+    def over(self, rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
+        """Return the plane at each pixel of the frame (h, w), or of a part of it."""
+        return self._at(shares(self.shape[0])[rows], shares(self.shape[1])[columns])
+
+    def means(self, by: int, rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
+        """Return the means of the plane over blocks of `by` x `by` pixels, of all or of a part of them."""
+        return self._at(shares(self.shape[0], by)[rows], shares(self.shape[1], by)[columns])
+
+    def _at(self, down: NDArray[np.float64], across: NDArray[np.float64]) -> NDArray[np.float32]:
+        right, below = (self.slopes[0] * across).astype(np.float32), (self.slopes[1] * down).astype(np.float32)
+        plane: NDArray[np.float32] = np.float32(self.level) + right + below[:, None]
+        return plane
+
+
+def shares(size: int, by: int = 1) -> NDArray[np.float64]:
+    """Return where the blocks of `by` pixels of a side of a frame are, as shares of the side from its middle. What is
+    left over of the side belongs to no block, but to the side."""
+    return (np.arange(size // by) + 0.5) * by / size - 0.5
 
 
 def binning(shape: tuple[int, int]) -> int:
@@ -79,13 +93,12 @@ def outside(shape: tuple[int, int], box: tuple[int, int, int, int]) -> Mask:
     return mask if mask.mean() >= _LEAST else corners(shape)
 
 
-def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Plane:
-    """Return the plane through the blocks of `mask`, in a picture of means of `by` x `by` pixels. `least`: the variance
-    of a pixel that the camera's noise makes by itself [count^2]."""
-    h, w = coarse.shape
+def plane(coarse: NDArray[np.float32], mask: Mask, by: int, shape: tuple[int, int], least: float) -> Plane:
+    """Return the plane through the blocks of `mask`, in the means of `by` x `by` pixels of a frame of `shape`. `least`:
+    the variance of a pixel that the camera's noise makes by itself [count^2]."""
     places = np.flatnonzero(mask)
-    x, y = (np.broadcast_to(n, (h, w)).ravel()[places] for n in _places(h, w))
-    basis = np.stack([np.ones(len(places)), x, y])
+    rows, columns = np.divmod(places, coarse.shape[1])
+    basis = np.stack([np.ones(len(places)), shares(shape[1], by)[columns], shares(shape[0], by)[rows]])
     values = coarse.ravel()[places].astype(np.float64)
     weights = np.ones(len(values))
     for _ in range(3):
@@ -98,13 +111,7 @@ def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Pla
         spread = math.sqrt(max(squares / count - (kept / count) ** 2, 0)) + 1e-9
         weights = (np.abs(left) < _OUTLYING * spread).astype(np.float64)
     variance = max(spread**2 * by**2, least)
-    return Plane(float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
-
-
-def _places(h: int, w: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Where the columns (1, w) and the rows (h, 1) of a picture are, as shares of its width and height from the
-    middle."""
-    return ((np.arange(w) + 0.5) / w - 0.5)[None], ((np.arange(h) + 0.5) / h - 0.5)[:, None]
+    return Plane(shape, float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
 
 
 def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> Plane:
@@ -113,7 +120,7 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
     The means of tiles outside of the beam scatter by the noise of their pixels, and by more if the background is not
     flat: the variance is that of a pixel which would make the same scatter.
     """
-    left = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
+    left = coarse - behind.means(by)
     good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
     variance, size = behind.variance, 2
     while min(coarse.shape) >= 2 * size:

@@ -45,7 +45,7 @@ def _flat(box: Box, origin: tuple[float, float], highest: int) -> Array:
     return np.outer(powers(h, origin[0], highest).sum(0), powers(w, origin[1], highest).sum(0))
 
 
-def _basis(box: Box, shape: tuple[int, ...], origin: tuple[float, float]) -> Array:
+def _basis(box: Box, shape: tuple[float, float], origin: tuple[float, float]) -> Array:
     """The three parts of a plane as polynomials (3, row^j, column^k) about an origin of a box."""
     basis = np.zeros((3, 2, 2))
     basis[0, 0, 0] = 1.0
@@ -55,7 +55,7 @@ def _basis(box: Box, shape: tuple[int, ...], origin: tuple[float, float]) -> Arr
 
 
 def _beam_sums(
-    part: NDArray[np.float32], box: Box, shape: tuple[int, ...], behind: Plane, origin: tuple[float, float],
+    part: NDArray[np.float32], box: Box, shape: tuple[float, float], behind: Plane, origin: tuple[float, float],
     highest: int,
 ) -> Array:  # fmt: skip
     """The sums of a beam above its background."""
@@ -90,7 +90,7 @@ def within(box: Box) -> tuple[slice, slice]:
     return slice(box[0], box[1]), slice(box[2], box[3])
 
 
-def above_plane(part: NDArray[np.float32], box: Box, shape: tuple[int, ...], behind: Plane) -> tuple[float, Array]:
+def above_plane(part: NDArray[np.float32], box: Box, shape: tuple[float, float], behind: Plane) -> tuple[float, Array]:
     """Return total and moments of a beam in a box, in pixels of the picture. `part`: the picture of `shape` in it."""
     origin = ((box[1] - box[0] - 1) / 2, (box[3] - box[2] - 1) / 2)
     total, moments = moments_of(_beam_sums(part, box, shape, behind, origin, 2))
@@ -108,7 +108,7 @@ def _weights(total: float, moments: Array) -> Array:
 
 
 def covariance(
-    part: NDArray[np.float32], electrons_per_count: float, box: Box, shape: tuple[int, ...], behind: Plane,
+    part: NDArray[np.float32], electrons_per_count: float, box: Box, shape: tuple[float, float], behind: Plane,
     beside: Stripes | None, total: float, moments: Array,
 ) -> Array:  # fmt: skip
     """Return the covariance (6, 6) of total and moments: shot noise of the beam, noise of each pixel, that of the plane

@@ -48,11 +48,9 @@ class Spot:
     background: Plane
     stripes: Stripes | None
 
-    def behind(
-        self, shape: tuple[int, int], rows: slice = slice(None), columns: slice = slice(None)
-    ) -> NDArray[np.float32]:
+    def behind(self, rows: slice = slice(None), columns: slice = slice(None)) -> NDArray[np.float32]:
         """Return the background at each pixel of the frame (h, w), or of a part of it [count]."""
-        flat = self.background.over(shape, rows, columns)
+        flat = self.background.over(rows, columns)
         return flat if self.stripes is None else flat + self.stripes.over(rows, columns)
 
 
@@ -159,13 +157,13 @@ def _settled(start: Start, held: Array | None, least: float) -> tuple[Array, Pla
     coarse, by, behind = start.coarse, start.by, start.background
     if by > 1 and start.width < FINE:
         about = _in_blocks(_box(start.moments, None, start.shape), by)
-        return start.moments, plane(coarse, outside(coarse.shape, about), by, least)
-    moments = coarser(start.moments, by)
+        return start.moments, plane(coarse, outside(coarse.shape, about), by, start.shape, least)
+    moments, blocks = coarser(start.moments, by), (start.shape[0] / by, start.shape[1] / by)
     widths = None if held is None else moments[2:]
     box = _box(moments, widths, coarse.shape)
     for _ in range(_ROUNDS):
-        behind = plane(coarse, outside(coarse.shape, box), by, least)
-        total, moments = above_plane(coarse[within(box)], box, coarse.shape, behind)
+        behind = plane(coarse, outside(coarse.shape, box), by, start.shape, least)
+        total, moments = above_plane(coarse[within(box)], box, blocks, behind)
         if not _sane(total, moments, coarse.shape):
             return _ADRIFT
         box, before = _box(moments, widths, coarse.shape), box

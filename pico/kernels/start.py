@@ -46,7 +46,7 @@ class Start:
     @property
     def shape(self) -> tuple[int, int]:
         """Rows and columns of the frame."""
-        return self.frame.pixels.shape[0], self.frame.pixels.shape[1]
+        return _shape(self.frame)
 
     def part(self, rows: slice, columns: slice) -> NDArray[np.float32]:
         """Return a part of the frame's signal without its stripes [count]."""
@@ -71,6 +71,10 @@ def found(frame: Frame) -> Start | str:
     return start if beside is None else _started(frame, coarse - beside.means(by), by, beside)
 
 
+def _shape(frame: Frame) -> tuple[int, int]:
+    return frame.pixels.shape[0], frame.pixels.shape[1]
+
+
 def is_dark(why: str) -> bool:
     """Whether a spot is unknown for want of light."""
     return why.startswith(DARK)
@@ -85,9 +89,9 @@ def without_light(frame: Frame) -> tuple[float, float]:
     top, left = round(_RIM * h), round(_RIM * w)
     box = (top, h - top, left, w - left)
     rim = outside((h, w), box)
-    behind = with_misfit(plane(coarse, rim, by, frame.dark_variance), coarse, rim, by)
+    behind = with_misfit(plane(coarse, rim, by, _shape(frame), frame.dark_variance), coarse, rim, by)
     inside = slice(top, h - top), slice(left, w - left)
-    above = coarse[inside] - behind.over((h, w), *inside)
+    above = coarse[inside] - behind.means(by, *inside)
     follow = above.size * by**2 * np.array([1.0, 0.0, 0.0])  # the middle of the middle is that of the plane
     variance = behind.variance * above.size * by**2 + follow @ behind.covariance @ follow
     return float(above.sum(dtype=np.float64)) * by**2, math.sqrt(variance)
@@ -95,8 +99,8 @@ def without_light(frame: Frame) -> tuple[float, float]:
 
 def _started(frame: Frame, coarse: NDArray[np.float32], by: int, beside: Stripes | None) -> Start | str:
     """Find the brightest place over the means of blocks of `by` pixels, without the stripes."""
-    behind = plane(coarse, corners(coarse.shape), by, frame.dark_variance)
-    above = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
+    behind = plane(coarse, corners(coarse.shape), by, _shape(frame), frame.dark_variance)
+    above = coarse - behind.means(by)
     moments = _bright(above, math.sqrt(behind.variance) / by)
     if moments is None or (4 * np.sqrt(moments[2:4]) > _HALF * np.array(coarse.shape[::-1])).any():
         moments = _without_stripes(above, moments)
@@ -124,8 +128,7 @@ def _in_pixels(frame: Frame, beside: Stripes | None, moments: Array, behind: Pla
     across, down = (4 * by + 4 * math.sqrt(v) for v in moments[2:4])
     top, left = max(0, int(moments[1] - down)), max(0, int(moments[0] - across))
     rows, columns = slice(top, int(moments[1] + down) + 2), slice(left, int(moments[0] + across) + 2)
-    h, w = frame.pixels.shape
-    above = without(frame, beside, rows, columns) - behind.over((h, w), rows, columns)
+    above = without(frame, beside, rows, columns) - behind.over(rows, columns)
     there = _bright(above, math.sqrt(behind.variance))
     if there is None:
         return moments

@@ -30,7 +30,7 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Result:
     top, bottom, left, right = beam.box
     h, w = given.pixels.shape
     rows, columns = slice(top, bottom), slice(left, right)
-    light = (given.part(rows, columns) - beam.behind((h, w), rows, columns)).astype(np.float64)
+    light = (given.part(rows, columns) - beam.behind(rows, columns)).astype(np.float64)
     x = (np.arange(left, right) - (w - 1) / 2) * given.pixel_size - parameters["x"]
     y = ((h - 1) / 2 - np.arange(top, bottom)) * given.pixel_size - parameters["y"]
     mode = np.exp(-((y / parameters["radius"]) ** 2))[:, None] * np.exp(-((x / parameters["radius"]) ** 2))
