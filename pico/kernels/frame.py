@@ -27,7 +27,7 @@ Places = tuple["NDArray[np.intp]", "NDArray[np.intp]"]
 def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
     """Return how many pixels of a picture are saturated, and what these read [count].
 
-    A single full pixel without light around it is a defect and does not count. The level is full scale, or less if the
+    A full pixel that stands out from all of its neighbors is a defect and does not count. The level is full scale, or less if the
     pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau.
     """
     import numpy as np
@@ -50,13 +50,18 @@ def saturated(pixels: NDArray[Any], full_scale: float) -> str:
 
 
 def _full(pixels: NDArray[Any], full_scale: float) -> tuple[Places, NDArray[Any]]:
-    """Which pixels are full, and whether each of them stands alone in the dark."""
+    """Which pixels are full, and whether each of them stands out from its neighbors, none of which is full."""
     import numpy as np
 
     from pico.kernels.defects import lone
 
-    rows, columns = np.divmod(np.flatnonzero(pixels >= full_scale), pixels.shape[1])
-    return (rows, columns), lone(pixels, (rows, columns), _STUCK * full_scale)
+    full = pixels >= full_scale
+    rows, columns = np.divmod(np.flatnonzero(full), pixels.shape[1])
+    stuck = lone(pixels, (rows, columns), _STUCK * full_scale)
+    for at in np.flatnonzero(stuck):
+        row, column = rows[at], columns[at]
+        stuck[at] = full[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2].sum() == 1
+    return (rows, columns), stuck
 
 
 @dataclass(frozen=True, eq=False)
