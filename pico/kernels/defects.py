@@ -33,7 +33,8 @@ def defects(pixels: NDArray[Any], dark_variance: float, electrons_per_count: flo
     `pixels`: of 8 or 16 bits without a sign, or float32; `dark_variance`: of a pixel without light [count^2]; `black`
     [count].
     """
-    least = max(math.sqrt(dark_variance), _scatter(pixels), 0.5)
+    scatter, darkest = _dark(pixels)
+    least, black = max(math.sqrt(dark_variance), scatter, 0.5), min(black, darkest)
     rows, columns = _candidates(pixels, least, electrons_per_count, black)
     if not 0 < len(rows) <= _MOST:
         return rows[:0], columns[:0]
@@ -118,7 +119,8 @@ def _candidates(pixels: NDArray[Any], least: float, electrons_per_count: float, 
             continue
         top = max(float(cv2.minMaxLoc(middle)[1]) - black, 1.0)
         slope = (_STANDS_OUT * math.sqrt(least**2 + top / electrons_per_count) - low) / top
-        over = cv2.addWeighted(apart, 1.0, middle, -slope, slope * black - low, dtype=cv2.CV_32F)
+        lit = cv2.max(middle, max(black, 0.0))  # darker pixels have no less noise
+        over = cv2.addWeighted(apart, 1.0, lit, -slope, slope * black - low, dtype=cv2.CV_32F)
         places = cv2.findNonZero(cv2.compare(over, np.zeros(1), cv2.CMP_GT))
         if places is not None:
             found.append(places.reshape(-1, 2).astype(np.intp) + np.array([0, first]))
@@ -135,11 +137,13 @@ def _apart(pixels: NDArray[Any], first: int, last: int) -> tuple[NDArray[Any], N
     return cv2.absdiff(some[rows], middle), middle
 
 
-def _scatter(pixels: NDArray[Any]) -> float:
-    """One standard deviation of noise, from how far pixels are off the median of the nine about them."""
+def _dark(pixels: NDArray[Any]) -> tuple[float, float]:
+    """One standard deviation of noise, from how far pixels are off the median of the nine about them, and the least of
+    these medians, over some rows of the picture. What is above it may be light, which has noise."""
     step = max(8, pixels.shape[0] // _BANDS)
-    some = [_apart(pixels, first, first + 4)[0][:, ::4].ravel() for first in range(0, pixels.shape[0] - 3, step)]
-    return float(median(np.concatenate(some))) * 1.6
+    some = [_apart(pixels, first, first + 4) for first in range(0, pixels.shape[0] - 3, step)]
+    scatter = float(median(np.concatenate([apart[:, ::4].ravel() for apart, _ in some]))) * 1.6
+    return scatter, min(float(middle.min()) for _, middle in some)
 
 
 def _neighbors(values: NDArray[Any], rows: NDArray[np.intp], columns: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -27,8 +27,9 @@ Places = tuple["NDArray[np.intp]", "NDArray[np.intp]"]
 def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
     """Return how many pixels of a picture are saturated, and what these read [count].
 
-    A full pixel that stands out from all of its neighbors is a defect and does not count. The level is full scale, or less if the
-    pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau.
+    A full pixel that stands out from all of its neighbors is a defect and does not count. The level is full scale, or
+    less if the pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no
+    such plateau.
     """
     import numpy as np
 
