@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pico.kernels.background import binned
 from pico.kernels.frame import Frame
 from pico.kernels.moments import PIXEL
+from pico.kernels.rounding import levels, shifts
 from pico.kernels.spot import NARROWEST
 from pico.kernels.start import Start, found
 
@@ -64,6 +65,9 @@ def fitted(frame: Frame) -> Fit | str:
     left = patch.values - _model(theta, patch)[0]
     variance = max(start.background.variance, frame.dark_variance)
     shot = np.maximum(_model(theta, patch)[0] - theta[6], 0) / frame.electrons_per_count
+    if start.stripes is not None:
+        columns, rows = start.stripes.light(by)
+        shot += (columns[patch.columns.astype(int)] + rows[patch.rows.astype(int)]) / frame.electrons_per_count
     scatter = (shot + variance) / by**2
     misfit = max(1.0, float((left**2).sum() / scatter.sum()))
     inverse = np.linalg.inv(jacobian.T @ jacobian)
@@ -75,6 +79,12 @@ def fitted(frame: Frame) -> Fit | str:
             each = np.zeros((int(places.max()) + 1, jacobian.shape[1]))
             np.add.at(each, places.astype(int), jacobian)
             covariance += variance / by * inverse @ each.T @ each @ inverse
+    light = _model(theta, patch)[0] - theta[6]
+    spread = by**2 * np.square(jacobian[:, 1:3] / by).sum(axis=1) / 12
+    some = levels(frame, start.background, start.offset)
+    for level in some:
+        shift = inverse @ (jacobian.T @ shifts(light, frame, float(level), spread * by**2))
+        covariance += np.outer(shift, shift) / len(some)
     return _in_pixels(theta, covariance, by)
 
 

@@ -116,6 +116,12 @@ def covariance(
     origin = (moments[1] - box[0], moments[0] - box[2])
     beam, flat = _beam_sums(part, box, shape, behind, origin, 4), _flat(box, origin, 4)
     noise = beam / electrons_per_count + behind.variance * flat
+    if beside is not None:
+        columns, rows = beside.light()
+        down, right = powers(box[1] - box[0], origin[0]), powers(box[3] - box[2], origin[1])
+        smear = np.outer(down.sum(0), columns[box[2] : box[3]] @ right)
+        smear += np.outer(rows[box[0] : box[1]] @ down, right.sum(0))
+        noise += smear / electrons_per_count
     weights = _weights(total, moments)
     follow = _products(weights, _basis(box, shape, origin), flat)
     out: Array = _products(weights, weights, noise) + follow @ behind.covariance @ follow.T

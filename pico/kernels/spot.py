@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pico.kernels import cut, rounding
 from pico.kernels.background import Plane, outside, plane, with_misfit
 from pico.kernels.beside import light_beside
 from pico.kernels.frame import Frame
@@ -32,6 +33,10 @@ NARROWEST = 2.5
 """Width (D4sigma) [px] below which pixels are too few to tell a beam's width."""
 _WIDENED = 0.1
 """The share by which light beside a beam may change its variances before its widths are unknown."""
+_NOISY = 0.05
+"""The share of its variances by which noise alone may change those of a beam that has a region of integration."""
+_REGION_NOISE = 12**3 / math.sqrt(80) / (2 * math.pi)
+"""Of a square of twelve standard deviations: the root of the sum of x^4, by the light and the variance of a Gaussian."""
 _ADRIFT = "the region of integration does not settle: the background is not flat, or the beam is not alone"
 
 
@@ -77,7 +82,10 @@ def spot(frame: Frame, iterated: bool = False) -> Spot | str:
     own = covariance(
         start.part(*within(box)), frame.electrons_per_count, box, start.shape, behind, start.stripes, total, moments
     )
-    return Spot(total, moments, own + np.outer(by, by), box, behind, start.stripes)
+    lost = cut.change(start.shape, total, moments)
+    own += np.outer(by, by) + np.outer(lost, lost)
+    own += rounding.change(frame, behind, start.offset, total, moments)
+    return Spot(total, moments, own, box, behind, start.stripes)
 
 
 def _region(start: Start, held: Array | None, least: float) -> tuple[float, Array, Box, Plane] | str:
@@ -112,8 +120,22 @@ def _no_width(start: Start, moments: Array, by: Array) -> str:
     return _widened(start.moments, moments) if (by[3:5] > _WIDENED * moments[2:4]).any() else ""
 
 
+def _noise(start: Start) -> float:
+    """The share of a beam's variances that noise makes by itself over a region of three widths."""
+    column, row = (int(at) for at in start.moments[:2])
+    across, down = (max(1, int(math.sqrt(v) / 2)) for v in start.moments[2:4])
+    rows = slice(max(row - down, 0), max(row + down + 1, 1))
+    columns = slice(max(column - across, 0), max(column + across + 1, 1))
+    peak = max(float((start.part(rows, columns) - start.background.over(rows, columns)).mean()), 1e-9)
+    deviation = math.sqrt(start.background.variance / math.sqrt(float(start.moments[2] * start.moments[3])))
+    return _REGION_NOISE * deviation / peak
+
+
 def _adrift(start: Start) -> str:
     """Why no region of integration is found about a beam."""
+    if start.width >= _FEW and _noise(start) > _NOISY:
+        text = "the beam is dim: noise outweighs its second moments over a region of three widths"
+        return f"{text}; `gaussian_fit` measures it, or expose for longer"
     if start.width < _FEW:
         text = f"the beam is only {start.width:.2g} px wide: noise outweighs the second moments of so few pixels"
         return f"{text}; `gaussian_fit` measures beams from {NARROWEST:g} px on"
@@ -165,11 +187,11 @@ def _settled(start: Start, held: Array | None, least: float) -> tuple[Array, Pla
         behind = plane(coarse, outside(coarse.shape, box), by, start.shape, least)
         total, moments = above_plane(coarse[within(box)], box, blocks, behind)
         if not _sane(total, moments, coarse.shape):
-            return _ADRIFT
+            return _adrift(start)
         box, before = _box(moments, widths, coarse.shape), box
         if _moved(box, before) <= 1:
             return finer(moments, by), behind
-    return _ADRIFT
+    return _adrift(start)
 
 
 def _moved(a: Box, b: Box) -> int:

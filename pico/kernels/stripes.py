@@ -43,8 +43,22 @@ class Stripes:
 
     def means(self, by: int) -> NDArray[np.float32]:
         """Return the means of the stripes over blocks of `by` x `by` pixels."""
-        rows, columns = (one[: len(one) // by * by].reshape(-1, by).mean(axis=1) for one in (self.rows, self.columns))
-        return rows[:, None] + columns
+        rows, columns = (_means(one, by) for one in (self.rows, self.columns))
+        means: NDArray[np.float32] = rows[:, None] + columns
+        return means
+
+    def light(self, by: int = 1) -> tuple[Array, Array]:
+        """Return what may be light in the stripes of columns and of rows, the means of `by` each [count]: what is above
+        their median. Smear has the noise of light."""
+        columns, rows = (
+            np.maximum(_means(one, by).astype(np.float64) - median(one), 0) for one in (self.columns, self.rows)
+        )
+        return columns, rows
+
+
+def _means(one: NDArray[np.float32], by: int) -> NDArray[np.float32]:
+    means: NDArray[np.float32] = one[: len(one) // by * by].reshape(-1, by).mean(axis=1)
+    return means
 
 
 def without(frame: Frame, beside: Stripes | None, rows: slice, columns: slice) -> NDArray[np.float32]:
