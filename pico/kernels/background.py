@@ -22,8 +22,10 @@ _TILES = 24
 """Tiles outside of the beam from which their scatter tells how uneven a background is."""
 _UNEVEN = 4.0
 """Standard deviations by which the scatter of tiles must exceed what noise makes."""
-
-
+_TILE = 4
+"""Blocks of a side of the tiles from which a curvature is told."""
+_CURVED = 30.0
+"""Chi-square of the three curvatures from which noise does not explain them: one flat background in a million."""
 _ALL = slice(None)
 
 
@@ -120,11 +122,10 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
     The means of tiles outside of the beam scatter by the noise of their pixels, and by more if the background is not
     flat: the variance is that of a pixel which would make the same scatter.
     """
-    left = coarse - behind.means(by)
-    good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
+    left, good = _left(behind, coarse, mask, by)
     variance, size = behind.variance, 2
     while min(coarse.shape) >= 2 * size:
-        tiles, whole = binned(left * good, size), binned(good, size) > 0.999
+        tiles, whole = binned(left, size), binned(good, size) > 0.999
         values = tiles[whole].astype(np.float64)
         if len(values) < _TILES:
             break
@@ -135,3 +136,33 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
             variance = max(variance, own)
         size *= 2
     return replace(behind, variance=variance, covariance=behind.covariance * variance / behind.variance)
+
+
+def bend(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> NDArray[np.float64] | None:
+    """Return by how much a curved background differs from the plane, fitted to what lies outside of the beam, too: the
+    coefficients (3, 3) of powers of the shares of height and width from the middle; None if noise explains them."""
+    left, good = _left(behind, coarse, mask, by)
+    places = np.flatnonzero(binned(good, _TILE) > 0.999)
+    if len(places) < _TILES:
+        return None
+    rows, columns = np.divmod(places, coarse.shape[1] // _TILE)
+    y, x = shares(behind.shape[0], by * _TILE)[rows], shares(behind.shape[1], by * _TILE)[columns]
+    basis = np.stack([np.ones(len(places)), x, y, x * x, x * y, y * y])
+    values = binned(left, _TILE).ravel()[places].astype(np.float64)
+    normal = np.linalg.pinv(basis @ basis.T)
+    found = normal @ (basis @ values)
+    variance = float(np.square(values - found @ basis).sum()) / (len(places) - len(found)) + 1e-12
+    curved = found[3:]
+    if curved @ np.linalg.pinv(normal[3:, 3:] * variance) @ curved < _CURVED:
+        return None
+    level, across, down, xx, xy, yy = found.tolist()
+    return np.array([[level, across, xx], [down, xy, 0.0], [yy, 0.0, 0.0]])
+
+
+def _left(
+    behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """What blocks of the mask are off the plane, and which of them are near it: 1, else 0 and 0."""
+    left = coarse - behind.means(by)
+    good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
+    return left * good, good

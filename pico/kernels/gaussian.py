@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pico.kernels.background import binned
 from pico.kernels.frame import Frame
 from pico.kernels.moments import PIXEL
-from pico.kernels.rounding import levels, shifts
+from pico.kernels.rounding import LIT, rounding
 from pico.kernels.spot import NARROWEST
 from pico.kernels.start import Start, found
 
@@ -79,13 +79,26 @@ def fitted(frame: Frame) -> Fit | str:
             each = np.zeros((int(places.max()) + 1, jacobian.shape[1]))
             np.add.at(each, places.astype(int), jacobian)
             covariance += variance / by * inverse @ each.T @ each @ inverse
-    light = _model(theta, patch)[0] - theta[6]
-    spread = by**2 * np.square(jacobian[:, 1:3] / by).sum(axis=1) / 12
-    some = levels(frame, start.background, start.offset)
-    for level in some:
-        shift = inverse @ (jacobian.T @ shifts(light, frame, float(level), spread * by**2))
-        covariance += np.outer(shift, shift) / len(some)
+    covariance += _rounded(frame, start, theta, jacobian, patch, by, inverse @ jacobian.T)
     return _in_pixels(theta, covariance, by)
+
+
+def _rounded(frame: Frame, start: Start, theta: Array, jacobian: Array, patch: _Patch, by: int, follow: Array) -> Array:
+    """What rounding to whole counts adds to the covariance of the parameters, which follow each block so."""
+    out = np.zeros((len(theta), len(theta)))
+    reach = 6 * np.sqrt(start.moments[2:4])
+    lost = rounding(frame, start.background, start.stripes, start.moments[:2], reach)
+    if lost is None:
+        return out
+    light = _model(theta, patch)[0] - theta[6]
+    spread = np.square(jacobian[:, 1:3]).sum(axis=1) / 12 if by > 1 else 0.0  # over a block
+    for level in lost.levels:
+        shift = follow @ lost.shifts(light, float(level), spread)
+        out += np.outer(shift, shift) / len(lost.levels)
+    for side in (patch.columns - theta[1], patch.rows - theta[2]) if lost.uneven else ():
+        shift = follow @ (lost.pedestal * np.sign(side) * (light > LIT))
+        out += np.outer(shift, shift)
+    return out
 
 
 def _in_pixels(theta: Array, covariance: Array, by: int) -> Fit | str:

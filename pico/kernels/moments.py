@@ -98,6 +98,21 @@ def above_plane(part: NDArray[np.float32], box: Box, shape: tuple[float, float],
     return total, moments
 
 
+def _about(middle: float, scale: float) -> Array:
+    """The powers 0 to 2 of `middle` + `scale` t as polynomials of t, a row each."""
+    return np.array([[1, 0, 0], [middle, scale, 0], [middle**2, 2 * middle * scale, scale**2]])
+
+
+def bent(curved: Array, box: Box, shape: tuple[float, float], total: float, moments: Array) -> Array:
+    """Return by how much a background that `bend` tells changes total and moments (6,) over a box."""
+    h, w = shape
+    origin = (moments[1] - box[0], moments[0] - box[2])
+    down, right = _about((moments[1] + 0.5) / h - 0.5, 1 / h), _about((moments[0] + 0.5) / w - 0.5, 1 / w)
+    about = down.T @ curved @ right
+    change: Array = _products(_weights(total, moments), about[None], _flat(box, origin, 4))[:, 0]
+    return change
+
+
 def _weights(total: float, moments: Array) -> Array:
     """How total and moments follow each pixel, as polynomials (6, row^j, column^k) about the middle of the beam."""
     weights = np.zeros((6, 3, 3))

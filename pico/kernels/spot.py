@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.kernels import cut, rounding
-from pico.kernels.background import Plane, outside, plane, with_misfit
+from pico.kernels import cut
+from pico.kernels.background import Plane, bend, outside, plane, with_misfit
 from pico.kernels.beside import light_beside
 from pico.kernels.frame import Frame
-from pico.kernels.moments import Array, Box, above_plane, coarser, covariance, finer, within
+from pico.kernels.moments import Array, Box, above_plane, bent, coarser, covariance, finer, within
+from pico.kernels.rounding import change, rounding
 from pico.kernels.start import FINE, Start, found
 from pico.kernels.stripes import Stripes
 
@@ -22,7 +23,7 @@ _REGION = 3.0
 _ROUNDS = 20
 _AT_LAST = 4
 """Rounds over means of blocks, then over the pixels themselves, at most."""
-_INSIDE = 0.75
+_INSIDE = 0.6
 """Widths (D4sigma) that the middle of a beam must keep from the edges of the frame. A Gaussian beam nearer to one has
 lost more than 0.1 % of its light."""
 _ALIKE = 0.01
@@ -36,7 +37,7 @@ _WIDENED = 0.1
 _NOISY = 0.05
 """The share of its variances by which noise alone may change those of a beam that has a region of integration."""
 _REGION_NOISE = 12**3 / math.sqrt(80) / (2 * math.pi)
-"""Of a square of twelve standard deviations: the root of the sum of x^4, by the light and the variance of a Gaussian."""
+"""Of a square of twelve standard deviations: the root of the sum of x^4, by light and variance of a Gaussian."""
 _ADRIFT = "the region of integration does not settle: the background is not flat, or the beam is not alone"
 
 
@@ -78,13 +79,19 @@ def spot(frame: Frame, iterated: bool = False) -> Spot | str:
     by = light_beside(start.coarse, start.by, about, behind, total, moments)
     if iterated and (why := _no_width(start, moments, by)):
         return why
-    behind = with_misfit(behind, start.coarse, outside(start.coarse.shape, about), start.by)
+    mask = outside(start.coarse.shape, about)
+    curved = bend(behind, start.coarse, mask, start.by)
+    behind = with_misfit(behind, start.coarse, mask, start.by)
     own = covariance(
         start.part(*within(box)), frame.electrons_per_count, box, start.shape, behind, start.stripes, total, moments
     )
     lost = cut.change(start.shape, total, moments)
     own += np.outer(by, by) + np.outer(lost, lost)
-    own += rounding.change(frame, behind, start.offset, total, moments)
+    if curved is not None:
+        off = bent(curved, box, start.shape, total, moments)
+        own += np.outer(off, off)
+    if low := rounding(frame, behind, start.stripes, moments[:2], 6 * np.sqrt(moments[2:4])):
+        own += change(low, total, moments)
     return Spot(total, moments, own, box, behind, start.stripes)
 
 

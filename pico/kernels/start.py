@@ -48,14 +48,6 @@ class Start:
         """Rows and columns of the frame."""
         return _shape(self.frame)
 
-    @property
-    def offset(self) -> float:
-        """The background at the beam's middle above the level of the plane [count]."""
-        row, column = (min(max(int(self.moments[i]), 0), self.shape[1 - i] - 1) for i in (1, 0))
-        rows, columns = slice(row, row + 1), slice(column, column + 1)
-        own = float(self.background.over(rows, columns)[0, 0]) - self.background.level
-        return own if self.stripes is None else own + float(self.stripes.over(rows, columns)[0, 0])
-
     def part(self, rows: slice, columns: slice) -> NDArray[np.float32]:
         """Return a part of the frame's signal without its stripes [count]."""
         return without(self.frame, self.stripes, rows, columns)
