@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -38,8 +39,8 @@ def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
         _, stuck = _full(pixels, full_scale)
         return int((~stuck).sum()), full_scale
     if pixels.dtype.kind in "ui" and full_scale >= FINE and top > full_scale / 4:
-        same = int(np.count_nonzero(pixels == pixels.max()))
-        if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= top - CLIFF)) - same):
+        same = int(np.count_nonzero(pixels == int(top)))
+        if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= int(top) - CLIFF)) - same):
             return same, top
     return 0, top
 
@@ -56,7 +57,8 @@ def _full(pixels: NDArray[Any], full_scale: float) -> tuple[Places, NDArray[Any]
 
     from pico.kernels.defects import lone
 
-    full = pixels >= full_scale
+    least = math.ceil(full_scale) if pixels.dtype.kind in "ui" else full_scale  # a float would turn all into floats
+    full = pixels >= least
     rows, columns = np.divmod(np.flatnonzero(full), pixels.shape[1])
     stuck = lone(pixels, (rows, columns), _STUCK * full_scale)
     for at in np.flatnonzero(stuck):
@@ -134,10 +136,10 @@ class Frame:
         strip = np.empty((each * by, w * by), np.float32)
         for first in range(0, h, each):  # a strip stays in the cache of the processor
             last = min(first + each, h)
-            some, rows = strip[: (last - first) * by], slice(first * by, last * by)
-            np.copyto(some, self.plain[rows, : w * by])
+            some, here = strip[: (last - first) * by], (slice(first * by, last * by), slice(0, w * by))
+            np.copyto(some, self.plain[here])
             if self.dark is not None:
-                some -= self.dark[rows, : w * by]
+                some -= self.dark[here]
             cv2.resize(some, (w, last - first), dst=out[first:last], interpolation=cv2.INTER_AREA)
         if self.dark is None:
             out -= np.float32(self.black_level)

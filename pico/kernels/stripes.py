@@ -111,11 +111,12 @@ def _profile(frame: Frame, axis: int, some: slice) -> Array:
     """The mean of some rows (axis 0) or columns (axis 1) of a frame's signal [count]."""
     here = (some, _ALL) if axis == 0 else (_ALL, some)
     count = some.stop - some.start
-    means: Array = (
-        cv2.reduce(frame.plain[here], axis, cv2.REDUCE_SUM, dtype=cv2.CV_32F).ravel().astype(np.float64) / count
-    )
+    sums = cv2.reduce(frame.plain[here], axis, cv2.REDUCE_SUM, dtype=cv2.CV_32F).ravel()
+    means: Array = sums.astype(np.float64) / count
     means -= frame.black_level if frame.dark is None else frame.dark[here].mean(axis=axis)
     places, values = frame.repairs
+    if not len(values):
+        return means
     inside = (places[axis] >= some.start) & (places[axis] < some.stop)
     rows, columns = places[0][inside], places[1][inside]
     np.add.at(means, places[1 - axis][inside], (values[inside] - frame.above(rows, columns)) / count)
