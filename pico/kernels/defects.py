@@ -56,10 +56,42 @@ def lone(pixels: NDArray[Any], places: Places, least: float) -> NDArray[np.bool_
     rows, columns = places
     if not 0 < len(rows) <= _MOST:
         return np.zeros(len(rows), bool)
+    out, paired, worst = _standing(pixels, rows, columns, least)
+    beside: dict[tuple[int, int], list[int]] = {}  # which pixels stand out but for this one
+    for i in np.flatnonzero(paired & ~out).tolist():
+        down, right = _AROUND[worst[i]]
+        beside.setdefault((int(rows[i]) + down, int(columns[i]) + right), []).append(i)
+    if beside:
+        index = {place: i for i, place in enumerate(zip(rows.tolist(), columns.tolist(), strict=True))}
+        for place, some in beside.items():
+            if _cluster(pixels, place, [7 - int(worst[i]) for i in some], least):
+                out[[*some, *([index[place]] if place in index else [])]] = True
+    return out
+
+
+def _cluster(pixels: NDArray[Any], place: tuple[int, int], left_out: list[int], least: float) -> bool:
+    """Whether a pixel stands out from its neighbors but for one or two, which are left out. That at the middle of a
+    small beam stands out from the diagonal ones, but not from all."""
+    rows, columns = (np.array([at]) for at in place)
+    rest = [i for i in range(4) if i not in left_out and 7 - i not in left_out]
+    if len(left_out) > 2 or len(rest) < 2 or rest == [0, 2]:
+        return False
+    if not (0 <= place[0] < pixels.shape[0] and 0 <= place[1] < pixels.shape[1]):
+        return False
+    around = _neighbors(pixels, rows, columns)
+    own = pixels[rows, columns].astype(np.float64)
+    return bool(_stands_out(own, (around + around[::-1])[rest] / 2, least)[0])
+
+
+def _standing(
+    pixels: NDArray[Any], rows: NDArray[np.intp], columns: NDArray[np.intp], least: float
+) -> tuple[NDArray[np.bool_], NDArray[np.bool_], NDArray[np.intp]]:
+    """Whether each pixel stands out from all of its neighbors; whether from all but the one that differs most; and
+    which that is of `_AROUND`."""
     own, around = pixels[rows, columns].astype(np.float64), _neighbors(pixels, rows, columns)
     pairs = (around + around[::-1])[:4] / 2
     worst = np.abs(around - median(around, 0)).argmax(axis=0)
-    out = _stands_out(own, pairs, least)
+    out, paired = _stands_out(own, pairs, least), np.zeros(len(rows), bool)
     for at, offset in enumerate(_AROUND):
         some = np.flatnonzero((worst == at) & ~out)
         rest = [i for i in range(4) if i not in (at, 7 - at)]
@@ -67,8 +99,8 @@ def lone(pixels: NDArray[Any], places: Places, least: float) -> NDArray[np.bool_
         slope = np.linalg.pinv(np.array([_AROUND[i] for i in rest], float)) @ slopes
         level = pairs[rest][:, some]
         other = around[7 - at, some] - (level.mean(axis=0) - np.array(offset, float) @ slope)
-        out[some] = _stands_out(own[some], level, least, np.abs(other))
-    return out
+        paired[some] = _stands_out(own[some], level, least, np.abs(other))
+    return out, paired, worst
 
 
 def _stands_out(own: Any, pairs: NDArray[np.float64], least: float, more: Any = 0.0) -> NDArray[np.bool_]:

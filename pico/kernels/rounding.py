@@ -21,7 +21,7 @@ _PHASES = (np.arange(32) + 0.5) / 32
 """Levels of the background within a count."""
 _ALIKE = 0.03
 """Counts by which the background that a level makes may differ from the measured one."""
-_EVEN = 0.1
+_EVEN = 0.03
 """Counts by which a background may vary over a beam that has one level within a count."""
 _DIMMEST, _STEPS = 1e-3, 300
 LIT = 0.3

@@ -25,7 +25,7 @@ _AT_LAST = 4
 """Rounds over means of blocks, then over the pixels themselves, at most."""
 _INSIDE = 0.6
 """Widths (D4sigma) that the middle of a beam must keep from the edges of the frame. A Gaussian beam nearer to one has
-lost more than 0.1 % of its light."""
+lost more than 0.8 % of its light, and 3 % of its width."""
 _ALIKE = 0.01
 """Standard deviations of the beam by which a region may still move when it counts as settled."""
 _FEW = 12.0
