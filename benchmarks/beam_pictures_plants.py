@@ -81,6 +81,13 @@ def _stuck_counted() -> Patches:
     ]
 
 
+def _edge_ignored() -> Patches:
+    import numpy as np
+
+    unaware = patch("pico.kernels.cut.change", lambda *a, **k: np.zeros(6))
+    return [*_everywhere("leaving", lambda _: lambda *a, **k: ""), unaware]
+
+
 def _at(factor: float, shift: float) -> Callable[[], Patches]:
     def moved(frame: Frame, column: float, row: float) -> tuple[float, float]:
         h, w = frame.pixels.shape
@@ -124,7 +131,7 @@ PLANTS: dict[str, Callable[[], Patches]] = {
     "saturation-ignored": _saturation_ignored,
     "stuck-pixels-counted": _stuck_counted,
     "stripes-ignored": lambda: _everywhere("stripes", lambda _: lambda *a, **k: None),
-    "edge-ignored": lambda: _everywhere("leaving", lambda _: lambda *a, **k: ""),
+    "edge-ignored": _edge_ignored,
     "half-a-pixel-off": _at(1.0, 0.5),
     "up-is-down": _at(-1.0, 0.0),
     "2-percent-wider": _axes(_wider),

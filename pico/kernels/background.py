@@ -3,6 +3,7 @@ and OpenCV at its top: kernels import it inside their functions."""
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import cv2
@@ -21,17 +22,20 @@ _TILES = 24
 """Tiles outside of the beam from which their scatter tells how uneven a background is."""
 _UNEVEN = 4.0
 """Standard deviations by which the scatter of tiles must exceed what noise makes."""
-
-
+_TILE = 4
+"""Blocks of a side of the tiles from which a curvature is told."""
+_CURVED = 30.0
+"""Chi-square of the three curvatures from which noise does not explain them: one flat background in a million."""
 _ALL = slice(None)
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """A background: `level` [count], `slopes` across and down [count over the frame's whole width, height], all three
-    from the middle of the frame, with their `covariance` (3, 3); `variance` of one pixel about it [count^2], the
-    misfit of the plane included."""
+    """A background of a frame of `shape` (h, w): `level` [count], `slopes` across and down [count over the frame's
+    whole width, height], all three from the middle of the frame, with their `covariance` (3, 3); `variance` of one
+    pixel about it [count^2], the misfit of the plane included."""
 
+    shape: tuple[int, int]
     level: float
     slopes: tuple[float, float]
     covariance: NDArray[np.float64]
@@ -42,11 +46,24 @@ class Plane:
         """Level, slope across, slope down."""
         return np.array([self.level, *self.slopes])
 
-    def over(self, shape: tuple[int, int], rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
-        """Return the plane at each pixel of a picture (h, w) of the whole frame, or of a part of it."""
-        across, down = (((np.arange(n) + 0.5) / n - 0.5).astype(np.float32) for n in shape[::-1])
-        right, below = np.float32(self.slopes[0]) * across[columns], np.float32(self.slopes[1]) * down[rows]
-        return np.float32(self.level) + right + below[:, None]
+    def over(self, rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
+        """Return the plane at each pixel of the frame (h, w), or of a part of it."""
+        return self._at(shares(self.shape[0])[rows], shares(self.shape[1])[columns])
+
+    def means(self, by: int, rows: slice = _ALL, columns: slice = _ALL) -> NDArray[np.float32]:
+        """Return the means of the plane over blocks of `by` x `by` pixels, of all or of a part of them."""
+        return self._at(shares(self.shape[0], by)[rows], shares(self.shape[1], by)[columns])
+
+    def _at(self, down: NDArray[np.float64], across: NDArray[np.float64]) -> NDArray[np.float32]:
+        right, below = (self.slopes[0] * across).astype(np.float32), (self.slopes[1] * down).astype(np.float32)
+        plane: NDArray[np.float32] = np.float32(self.level) + right + below[:, None]
+        return plane
+
+
+def shares(size: int, by: int = 1) -> NDArray[np.float64]:
+    """Return where the blocks of `by` pixels of a side of a frame are, as shares of the side from its middle. What is
+    left over of the side belongs to no block, but to the side."""
+    return (np.arange(size // by) + 0.5) * by / size - 0.5
 
 
 def binning(shape: tuple[int, int]) -> int:
@@ -78,22 +95,25 @@ def outside(shape: tuple[int, int], box: tuple[int, int, int, int]) -> Mask:
     return mask if mask.mean() >= _LEAST else corners(shape)
 
 
-def plane(coarse: NDArray[np.float32], mask: Mask, by: int, least: float) -> Plane:
-    """Return the plane through the blocks of `mask`, in a picture of means of `by` x `by` pixels. `least`: the variance
-    of a pixel that the camera's noise makes by itself [count^2]."""
-    h, w = coarse.shape
-    rows, columns = np.nonzero(mask)
-    basis = np.stack([np.ones(len(rows)), (columns + 0.5) / w - 0.5, (rows + 0.5) / h - 0.5], axis=1)
-    values = coarse[rows, columns].astype(np.float64)
-    keep = np.ones(len(values), bool)
+def plane(coarse: NDArray[np.float32], mask: Mask, by: int, shape: tuple[int, int], least: float) -> Plane:
+    """Return the plane through the blocks of `mask`, in the means of `by` x `by` pixels of a frame of `shape`. `least`:
+    the variance of a pixel that the camera's noise makes by itself [count^2]."""
+    places = np.flatnonzero(mask)
+    rows, columns = np.divmod(places, coarse.shape[1])
+    basis = np.stack([np.ones(len(places)), shares(shape[1], by)[columns], shares(shape[0], by)[rows]])
+    values = coarse.ravel()[places].astype(np.float64)
+    weights = np.ones(len(values))
     for _ in range(3):
-        normal = np.linalg.inv(basis[keep].T @ basis[keep])
-        found = normal @ (basis[keep].T @ values[keep])
-        left = values - basis @ found
-        spread = float(left[keep].std()) + 1e-9
-        keep = np.abs(left) < _OUTLYING * spread
+        weighed = basis * weights
+        normal = np.linalg.inv(weighed @ basis.T)
+        found = normal @ (weighed @ values)
+        left = values - found @ basis
+        kept, squares = weights @ left, weights @ left**2
+        count = weights.sum()
+        spread = math.sqrt(max(squares / count - (kept / count) ** 2, 0)) + 1e-9
+        weights = (np.abs(left) < _OUTLYING * spread).astype(np.float64)
     variance = max(spread**2 * by**2, least)
-    return Plane(float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
+    return Plane(shape, float(found[0]), (float(found[1]), float(found[2])), normal * variance / by**2, variance)
 
 
 def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> Plane:
@@ -102,11 +122,10 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
     The means of tiles outside of the beam scatter by the noise of their pixels, and by more if the background is not
     flat: the variance is that of a pixel which would make the same scatter.
     """
-    left = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
-    good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
+    left, good = _left(behind, coarse, mask, by)
     variance, size = behind.variance, 2
     while min(coarse.shape) >= 2 * size:
-        tiles, whole = binned(left * good, size), binned(good, size) > 0.999
+        tiles, whole = binned(left, size), binned(good, size) > 0.999
         values = tiles[whole].astype(np.float64)
         if len(values) < _TILES:
             break
@@ -117,3 +136,33 @@ def with_misfit(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int)
             variance = max(variance, own)
         size *= 2
     return replace(behind, variance=variance, covariance=behind.covariance * variance / behind.variance)
+
+
+def bend(behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int) -> NDArray[np.float64] | None:
+    """Return by how much a curved background differs from the plane, fitted to what lies outside of the beam, too: the
+    coefficients (3, 3) of powers of the shares of height and width from the middle; None if noise explains them."""
+    left, good = _left(behind, coarse, mask, by)
+    places = np.flatnonzero(binned(good, _TILE) > 0.999)
+    if len(places) < _TILES:
+        return None
+    rows, columns = np.divmod(places, coarse.shape[1] // _TILE)
+    y, x = shares(behind.shape[0], by * _TILE)[rows], shares(behind.shape[1], by * _TILE)[columns]
+    basis = np.stack([np.ones(len(places)), x, y, x * x, x * y, y * y])
+    values = binned(left, _TILE).ravel()[places].astype(np.float64)
+    normal = np.linalg.pinv(basis @ basis.T)
+    found = normal @ (basis @ values)
+    variance = float(np.square(values - found @ basis).sum()) / (len(places) - len(found)) + 1e-12
+    curved = found[3:]
+    if curved @ np.linalg.pinv(normal[3:, 3:] * variance) @ curved < _CURVED:
+        return None
+    level, across, down, xx, xy, yy = found.tolist()
+    return np.array([[level, across, xx], [down, xy, 0.0], [yy, 0.0, 0.0]])
+
+
+def _left(
+    behind: Plane, coarse: NDArray[np.float32], mask: Mask, by: int
+) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """What blocks of the mask are off the plane, and which of them are near it: 1, else 0 and 0."""
+    left = coarse - behind.means(by)
+    good = (mask & (np.abs(left) < _OUTLYING * np.sqrt(behind.variance) / by)).astype(np.float32)
+    return left * good, good

@@ -28,7 +28,7 @@ def light_beside(
     `coarse`: the means of blocks of `by` pixels; `box` (top, bottom, left, right) of the region [blocks]; `moments`:
     column and row [px], variances along columns, rows and across [px^2].
     """
-    left = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
+    left = coarse - behind.means(by)
     noise = np.sqrt(behind.variance) / by
     change = np.zeros(6)
     for piece, across in _pieces(box, (coarse.shape[0], coarse.shape[1])):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -18,21 +19,28 @@ _STUCK = 0.1
 """The share of full scale by which a full pixel must exceed its neighbors to be a defect, not light."""
 
 
+_STRIP = 64
+"""Rows at a time that stay in the cache of a processor."""
+Places = tuple["NDArray[np.intp]", "NDArray[np.intp]"]
+"""Rows and columns of pixels."""
+
+
 def full_pixels(pixels: NDArray[Any], full_scale: float) -> tuple[int, float]:
     """Return how many pixels of a picture are saturated, and what these read [count].
 
-    A single full pixel without light around it is a defect and does not count. The level is full scale, or less if the
-    pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no such plateau.
+    A full pixel that stands out from all of its neighbors is a defect and does not count. The level is full scale, or
+    less if the pixels overflow before the converter does, as those of a camera whose gain fell. Shot noise makes no
+    such plateau.
     """
     import numpy as np
 
     top = float(pixels.max())
     if top >= full_scale:
-        rows, _ = places = np.nonzero(pixels >= full_scale)
-        return len(rows) - int(_stuck(pixels, places, full_scale).sum()), full_scale
+        _, stuck = _full(pixels, full_scale)
+        return int((~stuck).sum()), full_scale
     if pixels.dtype.kind in "ui" and full_scale >= FINE and top > full_scale / 4:
-        same = int(np.count_nonzero(pixels == pixels.max()))
-        if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= top - CLIFF)) - same):
+        same = int(np.count_nonzero(pixels == int(top)))
+        if same >= PLATEAU and same > 3 * (int(np.count_nonzero(pixels >= int(top) - CLIFF)) - same):
             return same, top
     return 0, top
 
@@ -43,11 +51,20 @@ def saturated(pixels: NDArray[Any], full_scale: float) -> str:
     return f"{full} of {pixels.size} pixels read {level:g}" if full else ""
 
 
-def _stuck(pixels: NDArray[Any], places: Any, full_scale: float) -> NDArray[Any]:
-    """Whether each of some full pixels stands alone in the dark."""
+def _full(pixels: NDArray[Any], full_scale: float) -> tuple[Places, NDArray[Any]]:
+    """Which pixels are full, and whether each of them stands out from its neighbors, none of which is full."""
+    import numpy as np
+
     from pico.kernels.defects import lone
 
-    return lone(pixels, places, _STUCK * full_scale)
+    least = math.ceil(full_scale) if pixels.dtype.kind in "ui" else full_scale  # a float would turn all into floats
+    full = pixels >= least
+    rows, columns = np.divmod(np.flatnonzero(full), pixels.shape[1])
+    stuck = lone(pixels, (rows, columns), _STUCK * full_scale)
+    for at in np.flatnonzero(stuck):
+        row, column = rows[at], columns[at]
+        stuck[at] = full[max(row - 1, 0) : row + 2, max(column - 1, 0) : column + 2].sum() == 1
+    return (rows, columns), stuck
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,18 +99,76 @@ class Frame:
     @cached_property
     def signal(self) -> NDArray[np.float32]:
         """The pixels above black [count], (h, w); a defective one reads what its neighbors do. Not to be written to."""
-        import numpy as np
-
-        from pico.kernels.defects import repair
-
-        above = self.pixels.astype(np.float32)
-        above -= np.float32(self.black_level) if self.dark is None else self.dark.astype(np.float32)
-        repair(above, self.defects)
+        above = self.part(slice(None), slice(None))
         above.flags.writeable = False
         return above
 
     @cached_property
-    def defects(self) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def plain(self) -> NDArray[Any]:
+        """The pixels in one of the types that OpenCV knows: 8 or 16 bits without a sign, or float32."""
+        import numpy as np
+
+        if self.pixels.dtype in (np.uint8, np.uint16, np.float32):
+            return np.ascontiguousarray(self.pixels)
+        return self.pixels.astype(np.uint8 if self.pixels.dtype.kind == "b" else np.float32)
+
+    def part(self, rows: slice, columns: slice) -> NDArray[np.float32]:
+        """Return a part of the signal [count], without the cost of the whole."""
+        above = self.above(rows, columns)
+        top, left = rows.indices(self.pixels.shape[0])[0], columns.indices(self.pixels.shape[1])[0]
+        (down, right), values = self.repairs
+        down, right = down - top, right - left
+        here = (down >= 0) & (down < above.shape[0]) & (right >= 0) & (right < above.shape[1])
+        above[down[here], right[here]] = values[here]
+        return above
+
+    def means(self, by: int) -> NDArray[np.float32]:
+        """Return the means of the signal over blocks of `by` x `by` pixels [count]; what is left over at the right and
+        below is dropped."""
+        import cv2
+        import numpy as np
+
+        h, w = (n // by for n in self.pixels.shape)
+        if by == 1:
+            return self.part(slice(None), slice(None))
+        out = np.empty((h, w), np.float32)
+        each = max(1, _STRIP // by)
+        strip = np.empty((each * by, w * by), np.float32)
+        for first in range(0, h, each):  # a strip stays in the cache of the processor
+            last = min(first + each, h)
+            some, here = strip[: (last - first) * by], (slice(first * by, last * by), slice(0, w * by))
+            np.copyto(some, self.plain[here])
+            if self.dark is not None:
+                some -= self.dark[here]
+            cv2.resize(some, (w, last - first), dst=out[first:last], interpolation=cv2.INTER_AREA)
+        if self.dark is None:
+            out -= np.float32(self.black_level)
+        (rows, columns), values = self.repairs
+        seen = (rows < h * by) & (columns < w * by)
+        rows, columns = rows[seen], columns[seen]
+        np.add.at(out, (rows // by, columns // by), (values[seen] - self.above(rows, columns)) / by**2)
+        return out
+
+    @cached_property
+    def repairs(self) -> tuple[Places, NDArray[np.float32]]:
+        """Defective pixels, and the signal that their neighbors have in the middle [count]."""
+        import numpy as np
+
+        from pico.kernels.defects import replacements
+
+        values = replacements(self.pixels, self.defects, self.dark) - (self.black_level if self.dark is None else 0)
+        return self.defects, values.astype(np.float32)
+
+    def above(self, rows: Any, columns: Any) -> NDArray[np.float32]:
+        """Return some pixels above black [count], as they were read."""
+        import numpy as np
+
+        above: NDArray[np.float32] = self.pixels[rows, columns].astype(np.float32)
+        above -= np.float32(self.black_level) if self.dark is None else self.dark[rows, columns].astype(np.float32)
+        return above
+
+    @cached_property
+    def defects(self) -> Places:
         """Rows and columns of single pixels that are stuck, hot or dead: they differ from all their neighbors as no
         light of 3 px or more does."""
         import numpy as np
@@ -101,10 +176,9 @@ class Frame:
         from pico.kernels.defects import defects, median
 
         dark = self.black_level if self.dark is None else float(median(self.dark[::8, ::8]))
-        rows, columns = defects(self.pixels, self.dark_variance, self.electrons_per_count, dark)
-        full = np.nonzero(self.pixels >= self.full_scale) if self.pixels.max() >= self.full_scale else None
-        if full is not None:
-            stuck = _stuck(self.pixels, full, self.full_scale)
+        rows, columns = defects(self.plain, self.dark_variance, self.electrons_per_count, dark)
+        if self.pixels.max() >= self.full_scale:
+            full, stuck = _full(self.pixels, self.full_scale)
             both = np.unique(np.stack([np.append(rows, full[0][stuck]), np.append(columns, full[1][stuck])]), axis=1)
             rows, columns = both[0], both[1]
         return rows, columns

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pico.kernels.background import binned
 from pico.kernels.frame import Frame
 from pico.kernels.moments import PIXEL
+from pico.kernels.rounding import LIT, rounding
 from pico.kernels.spot import NARROWEST
 from pico.kernels.start import Start, found
 
@@ -64,6 +65,9 @@ def fitted(frame: Frame) -> Fit | str:
     left = patch.values - _model(theta, patch)[0]
     variance = max(start.background.variance, frame.dark_variance)
     shot = np.maximum(_model(theta, patch)[0] - theta[6], 0) / frame.electrons_per_count
+    if start.stripes is not None:
+        columns, rows = start.stripes.light(by)
+        shot += (columns[patch.columns.astype(int)] + rows[patch.rows.astype(int)]) / frame.electrons_per_count
     scatter = (shot + variance) / by**2
     misfit = max(1.0, float((left**2).sum() / scatter.sum()))
     inverse = np.linalg.inv(jacobian.T @ jacobian)
@@ -75,7 +79,26 @@ def fitted(frame: Frame) -> Fit | str:
             each = np.zeros((int(places.max()) + 1, jacobian.shape[1]))
             np.add.at(each, places.astype(int), jacobian)
             covariance += variance / by * inverse @ each.T @ each @ inverse
+    covariance += _rounded(frame, start, theta, jacobian, patch, by, inverse @ jacobian.T)
     return _in_pixels(theta, covariance, by)
+
+
+def _rounded(frame: Frame, start: Start, theta: Array, jacobian: Array, patch: _Patch, by: int, follow: Array) -> Array:
+    """What rounding to whole counts adds to the covariance of the parameters, which follow each block so."""
+    out = np.zeros((len(theta), len(theta)))
+    reach = 6 * np.sqrt(start.moments[2:4])
+    lost = rounding(frame, start.background, start.stripes, start.moments[:2], reach)
+    if lost is None:
+        return out
+    light = _model(theta, patch)[0] - theta[6]
+    spread = np.square(jacobian[:, 1:3]).sum(axis=1) / 12 if by > 1 else 0.0  # over a block
+    for level in lost.levels:
+        shift = follow @ lost.shifts(light, float(level), spread)
+        out += np.outer(shift, shift) / len(lost.levels)
+    for side in (patch.columns - theta[1], patch.rows - theta[2]) if lost.uneven else ():
+        shift = follow @ (lost.pedestal * np.sign(side) * (light > LIT))
+        out += np.outer(shift, shift)
+    return out
 
 
 def _in_pixels(theta: Array, covariance: Array, by: int) -> Fit | str:
@@ -97,12 +120,15 @@ def _determinant(variances: Array) -> float:
 
 def _patch(frame: Frame, start: Start, by: int) -> tuple[_Patch, Array]:
     """What is fitted to, and the start: peak, middle and variances [blocks], level."""
-    coarse = binned(start.signal, by)
     column, row = (start.moments[:2] - (by - 1) / 2) / by
     across, down, both = start.moments[2:] / by**2
     reach_x, reach_y = (max(4.0, _REACH * math.sqrt(v)) for v in (across, down))
     top, left = max(0, int(row - reach_y)), max(0, int(column - reach_x))
-    part = coarse[top : int(row + reach_y) + 2, left : int(column + reach_x) + 2].astype(np.float64)
+    bottom, right = (
+        min(int(at + reach) + 2, n // by)
+        for at, reach, n in zip((row, column), (reach_y, reach_x), start.shape, strict=True)
+    )
+    part = binned(start.part(slice(top * by, bottom * by), slice(left * by, right * by)), by).astype(np.float64)
     rows, columns = np.indices(part.shape)
     columns, rows = (columns + left).astype(float), (rows + top).astype(float)
     slopes = _slopes(columns.ravel(), rows.ravel(), by, frame)

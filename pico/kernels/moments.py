@@ -45,7 +45,7 @@ def _flat(box: Box, origin: tuple[float, float], highest: int) -> Array:
     return np.outer(powers(h, origin[0], highest).sum(0), powers(w, origin[1], highest).sum(0))
 
 
-def _basis(box: Box, shape: tuple[int, ...], origin: tuple[float, float]) -> Array:
+def _basis(box: Box, shape: tuple[float, float], origin: tuple[float, float]) -> Array:
     """The three parts of a plane as polynomials (3, row^j, column^k) about an origin of a box."""
     basis = np.zeros((3, 2, 2))
     basis[0, 0, 0] = 1.0
@@ -55,13 +55,13 @@ def _basis(box: Box, shape: tuple[int, ...], origin: tuple[float, float]) -> Arr
 
 
 def _beam_sums(
-    signal: NDArray[np.float32], box: Box, behind: Plane, origin: tuple[float, float], highest: int
-) -> Array:
+    part: NDArray[np.float32], box: Box, shape: tuple[float, float], behind: Plane, origin: tuple[float, float],
+    highest: int,
+) -> Array:  # fmt: skip
     """The sums of a beam above its background."""
-    part = signal[box[0] : box[1], box[2] : box[3]].astype(np.float64)
-    found = sums(part, origin, highest)
+    found = sums(part.astype(np.float64), origin, highest)
     flat = _flat(box, origin, highest + 1)
-    for coefficient, poly in zip(behind.coefficients, _basis(box, signal.shape, origin), strict=True):
+    for coefficient, poly in zip(behind.coefficients, _basis(box, shape, origin), strict=True):
         found -= coefficient * _times(poly, flat, highest + 1)
     return found
 
@@ -85,12 +85,32 @@ def moments_of(sums: Array) -> tuple[float, Array]:
     return total, np.array([column, row, across - column**2, down - row**2, both - row * column])
 
 
-def above_plane(signal: NDArray[np.float32], box: Box, behind: Plane) -> tuple[float, Array]:
-    """Return total and moments of a beam in a box, in pixels of the picture."""
+def within(box: Box) -> tuple[slice, slice]:
+    """Return the rows and the columns of a box."""
+    return slice(box[0], box[1]), slice(box[2], box[3])
+
+
+def above_plane(part: NDArray[np.float32], box: Box, shape: tuple[float, float], behind: Plane) -> tuple[float, Array]:
+    """Return total and moments of a beam in a box, in pixels of the picture. `part`: the picture of `shape` in it."""
     origin = ((box[1] - box[0] - 1) / 2, (box[3] - box[2] - 1) / 2)
-    total, moments = moments_of(_beam_sums(signal, box, behind, origin, 2))
+    total, moments = moments_of(_beam_sums(part, box, shape, behind, origin, 2))
     moments[:2] += box[2] + origin[1], box[0] + origin[0]
     return total, moments
+
+
+def _about(middle: float, scale: float) -> Array:
+    """The powers 0 to 2 of `middle` + `scale` t as polynomials of t, a row each."""
+    return np.array([[1, 0, 0], [middle, scale, 0], [middle**2, 2 * middle * scale, scale**2]])
+
+
+def bent(curved: Array, box: Box, shape: tuple[float, float], total: float, moments: Array) -> Array:
+    """Return by how much a background that `bend` tells changes total and moments (6,) over a box."""
+    h, w = shape
+    origin = (moments[1] - box[0], moments[0] - box[2])
+    down, right = _about((moments[1] + 0.5) / h - 0.5, 1 / h), _about((moments[0] + 0.5) / w - 0.5, 1 / w)
+    about = down.T @ curved @ right
+    change: Array = _products(_weights(total, moments), about[None], _flat(box, origin, 4))[:, 0]
+    return change
 
 
 def _weights(total: float, moments: Array) -> Array:
@@ -103,19 +123,23 @@ def _weights(total: float, moments: Array) -> Array:
 
 
 def covariance(
-    signal: NDArray[np.float32], electrons_per_count: float, box: Box, behind: Plane, beside: Stripes | None,
-    total: float, moments: Array,
+    part: NDArray[np.float32], electrons_per_count: float, box: Box, shape: tuple[float, float], behind: Plane,
+    beside: Stripes | None, total: float, moments: Array,
 ) -> Array:  # fmt: skip
-    """Return the covariance (6, 6) of total and moments of a picture (h, w): shot noise of the beam, noise of each
-    pixel, that of the plane and of the stripes, and what a pixel's own size may add."""
+    """Return the covariance (6, 6) of total and moments: shot noise of the beam, noise of each pixel, that of the plane
+    and of the stripes, and what a pixel's own size may add. `part`: the picture of `shape` in the box."""
     origin = (moments[1] - box[0], moments[0] - box[2])
-    beam, flat = _beam_sums(signal, box, behind, origin, 4), _flat(box, origin, 4)
+    beam, flat = _beam_sums(part, box, shape, behind, origin, 4), _flat(box, origin, 4)
     noise = beam / electrons_per_count + behind.variance * flat
+    if beside is not None:
+        columns, rows = beside.light()
+        down, right = powers(box[1] - box[0], origin[0]), powers(box[3] - box[2], origin[1])
+        smear = np.outer(down.sum(0), columns[box[2] : box[3]] @ right)
+        smear += np.outer(rows[box[0] : box[1]] @ down, right.sum(0))
+        noise += smear / electrons_per_count
     weights = _weights(total, moments)
-    own = np.array([[_sum(_product(a, b), noise) for b in weights] for a in weights])
-    basis = _basis(box, signal.shape, origin)
-    follow = np.array([[_sum(_product(a, b), flat) for b in basis] for a in weights])
-    out: Array = own + follow @ behind.covariance @ follow.T
+    follow = _products(weights, _basis(box, shape, origin), flat)
+    out: Array = _products(weights, weights, noise) + follow @ behind.covariance @ follow.T
     out[[3, 4], [3, 4]] += PIXEL**2 / 3
     if beside is not None:
         down, right = powers(box[1] - box[0], origin[0], 2), powers(box[3] - box[2], origin[1], 2)
@@ -126,14 +150,11 @@ def covariance(
     return out
 
 
-def _product(a: Array, b: Array) -> Array:
-    """The product of two polynomials."""
-    out = np.zeros((a.shape[0] + b.shape[0] - 1, a.shape[1] + b.shape[1] - 1))
-    for (j, k), coefficient in np.ndenumerate(b):
-        if coefficient:
-            out[j : j + a.shape[0], k : k + a.shape[1]] += coefficient * a
-    return out
-
-
-def _sum(poly: Array, sums: Array) -> float:
-    return float((poly * sums[: poly.shape[0], : poly.shape[1]]).sum())
+def _products(some: Array, others: Array, sums: Array) -> Array:
+    """The sums of what is weighted with the product of two polynomials each, (some, others)."""
+    down = np.add.outer(np.arange(some.shape[1]), np.arange(others.shape[1]))
+    right = np.add.outer(np.arange(some.shape[2]), np.arange(others.shape[2]))
+    of_both = sums[down[:, None, :, None], right[None, :, None, :]]  # row^j column^k of some, then of others
+    flat: Array = some.reshape(len(some), -1)
+    size = flat.shape[1]
+    return flat @ of_both.reshape(size, -1) @ others.reshape(len(others), -1).T

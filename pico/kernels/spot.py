@@ -9,10 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.kernels.background import Plane, outside, plane, with_misfit
+from pico.kernels import cut
+from pico.kernels.background import Plane, bend, outside, plane, with_misfit
 from pico.kernels.beside import light_beside
 from pico.kernels.frame import Frame
-from pico.kernels.moments import Array, Box, above_plane, coarser, covariance, finer
+from pico.kernels.moments import Array, Box, above_plane, bent, coarser, covariance, finer, within
+from pico.kernels.rounding import change, rounding
 from pico.kernels.start import FINE, Start, found
 from pico.kernels.stripes import Stripes
 
@@ -21,9 +23,9 @@ _REGION = 3.0
 _ROUNDS = 20
 _AT_LAST = 4
 """Rounds over means of blocks, then over the pixels themselves, at most."""
-_INSIDE = 0.75
+_INSIDE = 0.6
 """Widths (D4sigma) that the middle of a beam must keep from the edges of the frame. A Gaussian beam nearer to one has
-lost more than 0.1 % of its light."""
+lost more than 0.8 % of its light, and 3 % of its width."""
 _ALIKE = 0.01
 """Standard deviations of the beam by which a region may still move when it counts as settled."""
 _FEW = 12.0
@@ -32,6 +34,10 @@ NARROWEST = 2.5
 """Width (D4sigma) [px] below which pixels are too few to tell a beam's width."""
 _WIDENED = 0.1
 """The share by which light beside a beam may change its variances before its widths are unknown."""
+_NOISY = 0.05
+"""The share of its variances by which noise alone may change those of a beam that has a region of integration."""
+_REGION_NOISE = 12**3 / math.sqrt(80) / (2 * math.pi)
+"""Of a square of twelve standard deviations: the root of the sum of x^4, by light and variance of a Gaussian."""
 _ADRIFT = "the region of integration does not settle: the background is not flat, or the beam is not alone"
 
 
@@ -48,10 +54,10 @@ class Spot:
     background: Plane
     stripes: Stripes | None
 
-    def behind(self, shape: tuple[int, int]) -> NDArray[np.float32]:
-        """Return the background at each pixel of the frame (h, w) [count]."""
-        flat = self.background.over(shape)
-        return flat if self.stripes is None else flat + self.stripes.over()
+    def behind(self, rows: slice = slice(None), columns: slice = slice(None)) -> NDArray[np.float32]:
+        """Return the background at each pixel of the frame (h, w), or of a part of it [count]."""
+        flat = self.background.over(rows, columns)
+        return flat if self.stripes is None else flat + self.stripes.over(rows, columns)
 
 
 def spot(frame: Frame, iterated: bool = False) -> Spot | str:
@@ -73,9 +79,20 @@ def spot(frame: Frame, iterated: bool = False) -> Spot | str:
     by = light_beside(start.coarse, start.by, about, behind, total, moments)
     if iterated and (why := _no_width(start, moments, by)):
         return why
-    behind = with_misfit(behind, start.coarse, outside(start.coarse.shape, about), start.by)
-    own = covariance(start.signal, frame.electrons_per_count, box, behind, start.stripes, total, moments)
-    return Spot(total, moments, own + np.outer(by, by), box, behind, start.stripes)
+    mask = outside(start.coarse.shape, about)
+    curved = bend(behind, start.coarse, mask, start.by)
+    behind = with_misfit(behind, start.coarse, mask, start.by)
+    own = covariance(
+        start.part(*within(box)), frame.electrons_per_count, box, start.shape, behind, start.stripes, total, moments
+    )
+    lost = cut.change(start.shape, total, moments)
+    own += np.outer(by, by) + np.outer(lost, lost)
+    if curved is not None:
+        off = bent(curved, box, start.shape, total, moments)
+        own += np.outer(off, off)
+    if low := rounding(frame, behind, start.stripes, moments[:2], 6 * np.sqrt(moments[2:4])):
+        own += change(low, total, moments)
+    return Spot(total, moments, own, box, behind, start.stripes)
 
 
 def _region(start: Start, held: Array | None, least: float) -> tuple[float, Array, Box, Plane] | str:
@@ -85,10 +102,10 @@ def _region(start: Start, held: Array | None, least: float) -> tuple[float, Arra
     if isinstance(settled, str):
         return settled
     moments, behind = settled
-    shape = start.signal.shape
+    shape = start.shape
     box, tried = _box(moments, held, shape), list[Box]()
     for _ in range(_ROUNDS if start.width < FINE else _AT_LAST):
-        total, moments = above_plane(start.signal, box, behind)
+        total, moments = above_plane(start.part(*within(box)), box, shape, behind)
         if not _sane(total, moments, shape):
             return _adrift(start)
         tried.append(box)
@@ -110,8 +127,22 @@ def _no_width(start: Start, moments: Array, by: Array) -> str:
     return _widened(start.moments, moments) if (by[3:5] > _WIDENED * moments[2:4]).any() else ""
 
 
+def _noise(start: Start) -> float:
+    """The share of a beam's variances that noise makes by itself over a region of three widths."""
+    column, row = (int(at) for at in start.moments[:2])
+    across, down = (max(1, int(math.sqrt(v) / 2)) for v in start.moments[2:4])
+    rows = slice(max(row - down, 0), max(row + down + 1, 1))
+    columns = slice(max(column - across, 0), max(column + across + 1, 1))
+    peak = max(float((start.part(rows, columns) - start.background.over(rows, columns)).mean()), 1e-9)
+    deviation = math.sqrt(start.background.variance / math.sqrt(float(start.moments[2] * start.moments[3])))
+    return _REGION_NOISE * deviation / peak
+
+
 def _adrift(start: Start) -> str:
     """Why no region of integration is found about a beam."""
+    if start.width >= _FEW and _noise(start) > _NOISY:
+        text = "the beam is dim: noise outweighs its second moments over a region of three widths"
+        return f"{text}; `gaussian_fit` measures it, or expose for longer"
     if start.width < _FEW:
         text = f"the beam is only {start.width:.2g} px wide: noise outweighs the second moments of so few pixels"
         return f"{text}; `gaussian_fit` measures beams from {NARROWEST:g} px on"
@@ -154,20 +185,20 @@ def _settled(start: Start, held: Array | None, least: float) -> tuple[Array, Pla
     """Find the region over the means of blocks; the moments there in pixels of the frame, and the plane."""
     coarse, by, behind = start.coarse, start.by, start.background
     if by > 1 and start.width < FINE:
-        about = _in_blocks(_box(start.moments, None, start.signal.shape), by)
-        return start.moments, plane(coarse, outside(coarse.shape, about), by, least)
-    moments = coarser(start.moments, by)
+        about = _in_blocks(_box(start.moments, None, start.shape), by)
+        return start.moments, plane(coarse, outside(coarse.shape, about), by, start.shape, least)
+    moments, blocks = coarser(start.moments, by), (start.shape[0] / by, start.shape[1] / by)
     widths = None if held is None else moments[2:]
     box = _box(moments, widths, coarse.shape)
     for _ in range(_ROUNDS):
-        behind = plane(coarse, outside(coarse.shape, box), by, least)
-        total, moments = above_plane(coarse, box, behind)
+        behind = plane(coarse, outside(coarse.shape, box), by, start.shape, least)
+        total, moments = above_plane(coarse[within(box)], box, blocks, behind)
         if not _sane(total, moments, coarse.shape):
-            return _ADRIFT
+            return _adrift(start)
         box, before = _box(moments, widths, coarse.shape), box
         if _moved(box, before) <= 1:
             return finer(moments, by), behind
-    return _ADRIFT
+    return _adrift(start)
 
 
 def _moved(a: Box, b: Box) -> int:

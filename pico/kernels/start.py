@@ -10,11 +10,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from pico.kernels.background import Plane, binned, binning, corners, outside, plane, with_misfit
+from pico.kernels.background import Plane, binning, corners, outside, plane, with_misfit
 from pico.kernels.defects import median
 from pico.kernels.frame import Frame
 from pico.kernels.moments import Array, finer, moments_of, sums
-from pico.kernels.stripes import Stripes, stripes
+from pico.kernels.stripes import Stripes, stripes, without
 
 _SIGNIFICANT = 3.0
 """Standard deviations of a block that the brightest place must exceed to be light."""
@@ -33,15 +33,24 @@ DARK = "there is no light above the background"
 
 @dataclass(frozen=True, eq=False)
 class Start:
-    """Where the beam is roughly: `moments` as those of `Spot`; the `signal` without its `stripes` (h, w), the means of
-    its blocks of `by` pixels, and their plane."""
+    """Where the beam is roughly: `moments` as those of `Spot`; the `stripes` of the `frame`, the means of its blocks of
+    `by` pixels without them, and their plane."""
 
     moments: Array
-    signal: NDArray[np.float32]
+    frame: Frame
     stripes: Stripes | None
     coarse: NDArray[np.float32]
     by: int
     background: Plane
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Rows and columns of the frame."""
+        return _shape(self.frame)
+
+    def part(self, rows: slice, columns: slice) -> NDArray[np.float32]:
+        """Return a part of the frame's signal without its stripes [count]."""
+        return without(self.frame, self.stripes, rows, columns)
 
     @property
     def width(self) -> float:
@@ -53,11 +62,17 @@ def found(frame: Frame) -> Start | str:
     """Return where the brightest spot is; why there is none."""
     if why := frame.refusal:
         return why
-    start = _started(frame, frame.signal, None)
+    by = binning(frame.pixels.shape)
+    coarse = frame.means(by)
+    start = _started(frame, coarse, by, None)
     if isinstance(start, str):
         return f"{start}, but for {frame.remark}" if frame.remark else start
-    beside = stripes(start.signal, start.background, start.moments)
-    return start if beside is None else _started(frame, start.signal - beside.over(), beside)
+    beside = stripes(frame, start.background, start.moments)
+    return start if beside is None else _started(frame, coarse - beside.means(by), by, beside)
+
+
+def _shape(frame: Frame) -> tuple[int, int]:
+    return frame.pixels.shape[0], frame.pixels.shape[1]
 
 
 def is_dark(why: str) -> bool:
@@ -69,25 +84,23 @@ def without_light(frame: Frame) -> tuple[float, float]:
     """Return the sum of a picture without a spot and its standard deviation [count]: over the middle of the frame,
     above a plane through the rim around it."""
     by = binning(frame.pixels.shape)
-    coarse = binned(frame.signal, by)
+    coarse = frame.means(by)
     h, w = coarse.shape
     top, left = round(_RIM * h), round(_RIM * w)
     box = (top, h - top, left, w - left)
     rim = outside((h, w), box)
-    behind = with_misfit(plane(coarse, rim, by, frame.dark_variance), coarse, rim, by)
+    behind = with_misfit(plane(coarse, rim, by, _shape(frame), frame.dark_variance), coarse, rim, by)
     inside = slice(top, h - top), slice(left, w - left)
-    above = coarse[inside] - behind.over((h, w), *inside)
+    above = coarse[inside] - behind.means(by, *inside)
     follow = above.size * by**2 * np.array([1.0, 0.0, 0.0])  # the middle of the middle is that of the plane
     variance = behind.variance * above.size * by**2 + follow @ behind.covariance @ follow
     return float(above.sum(dtype=np.float64)) * by**2, math.sqrt(variance)
 
 
-def _started(frame: Frame, signal: NDArray[np.float32], beside: Stripes | None) -> Start | str:
-    """Find the brightest place over the means of blocks."""
-    by = binning(frame.pixels.shape)
-    coarse = binned(signal, by)
-    behind = plane(coarse, corners(coarse.shape), by, frame.dark_variance)
-    above = coarse - behind.over((coarse.shape[0], coarse.shape[1]))
+def _started(frame: Frame, coarse: NDArray[np.float32], by: int, beside: Stripes | None) -> Start | str:
+    """Find the brightest place over the means of blocks of `by` pixels, without the stripes."""
+    behind = plane(coarse, corners(coarse.shape), by, _shape(frame), frame.dark_variance)
+    above = coarse - behind.means(by)
     moments = _bright(above, math.sqrt(behind.variance) / by)
     if moments is None or (4 * np.sqrt(moments[2:4]) > _HALF * np.array(coarse.shape[::-1])).any():
         moments = _without_stripes(above, moments)
@@ -95,8 +108,8 @@ def _started(frame: Frame, signal: NDArray[np.float32], beside: Stripes | None) 
         return DARK
     moments = finer(moments, by)
     if by > 1 and 4 * math.sqrt(moments[2:4].min()) < FINE:
-        moments = _in_pixels(signal, moments, behind, by)
-    return Start(moments, signal, beside, coarse, by, behind)
+        moments = _in_pixels(frame, beside, moments, behind, by)
+    return Start(moments, frame, beside, coarse, by, behind)
 
 
 def _without_stripes(above: NDArray[np.float32], moments: Array | None) -> Array | None:
@@ -110,12 +123,12 @@ def _without_stripes(above: NDArray[np.float32], moments: Array | None) -> Array
     return there
 
 
-def _in_pixels(signal: NDArray[np.float32], moments: Array, behind: Plane, by: int) -> Array:
+def _in_pixels(frame: Frame, beside: Stripes | None, moments: Array, behind: Plane, by: int) -> Array:
     """The moments of a small bright place, over the pixels about it."""
     across, down = (4 * by + 4 * math.sqrt(v) for v in moments[2:4])
     top, left = max(0, int(moments[1] - down)), max(0, int(moments[0] - across))
     rows, columns = slice(top, int(moments[1] + down) + 2), slice(left, int(moments[0] + across) + 2)
-    above = signal[rows, columns] - behind.over((signal.shape[0], signal.shape[1]), rows, columns)
+    above = without(frame, beside, rows, columns) - behind.over(rows, columns)
     there = _bright(above, math.sqrt(behind.variance))
     if there is None:
         return moments

@@ -22,4 +22,4 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Frame | Result:
     if isinstance(beam, str):
         return Result(unknown=beam)
     black = np.float32(given.black_level) if given.dark is None else given.dark.astype(np.float32)
-    return replace(given, dark=beam.behind((given.signal.shape[0], given.signal.shape[1])) + black)
+    return replace(given, dark=beam.behind() + black)

@@ -28,11 +28,11 @@ def apply(given: Frame, parameters: Mapping[str, float]) -> Result:
     if isinstance(beam, str):
         return Result(unknown=beam)
     top, bottom, left, right = beam.box
-    signal = given.signal
-    light = (signal - beam.behind((signal.shape[0], signal.shape[1])))[top:bottom, left:right].astype(np.float64)
-    columns, rows = np.arange(left, right), np.arange(top, bottom)
-    x = (columns - (signal.shape[1] - 1) / 2) * given.pixel_size - parameters["x"]
-    y = ((signal.shape[0] - 1) / 2 - rows) * given.pixel_size - parameters["y"]
+    h, w = given.pixels.shape
+    rows, columns = slice(top, bottom), slice(left, right)
+    light = (given.part(rows, columns) - beam.behind(rows, columns)).astype(np.float64)
+    x = (np.arange(left, right) - (w - 1) / 2) * given.pixel_size - parameters["x"]
+    y = ((h - 1) / 2 - np.arange(top, bottom)) * given.pixel_size - parameters["y"]
     mode = np.exp(-((y / parameters["radius"]) ** 2))[:, None] * np.exp(-((x / parameters["radius"]) ** 2))
     root = np.sign(light) * np.sqrt(np.abs(light))
     # The whole mode, also where it reaches out of the region: its integral is pi r^2 / 2.
