@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from itertools import product
 from threading import Lock
 from typing import Any
 
 from pico.diagnostics import Diagnostic
 from pico.model.observation import Observation
-from pico.model.operation import Operation, searched_by
+from pico.model.operation import Operation
 from pico.model.plan import Plan
 from pico.model.pose import Pose, angle_between
 from pico.model.record import as_json, digest
@@ -23,6 +23,7 @@ from pico.optics.audit.limits import above_class_2
 from pico.optics.axis import Values, axis_of
 from pico.planning.checks.emission import SEARCHING, lets_out
 from pico.policy.beams import open_beams
+from pico.policy.driven import driven_in_light, searched_in
 
 CORNERS = 4
 """Of so many tunables that are searched at once the corners that they span are judged, too."""
@@ -40,11 +41,13 @@ class Lit:
     lasers: tuple[str, ...]
     opened: frozenset[str] = frozenset()
     enclosed: bool = False
+    # Between which values a plan drives the angles of mirrors while light may be on, by component and tunable.
+    spans: Mapping[str, Mapping[str, tuple[float, float]]] = field(default_factory=dict)
 
 
 Tracing = Callable[[Setup, Lit], Audit | None]
 """Tells the verdict on a bench; None where nobody knows it yet, and it is not worth finding out."""
-VERSION = 2
+VERSION = 3
 """Of the rules of the audit; a verdict by others is not believed."""
 MOST = 64
 """So many verdicts stay in memory, the newest."""
@@ -54,7 +57,7 @@ _VERDICTS_LOCK = Lock()
 
 def audit_key(setup: Setup, lit: Lit) -> str:
     """Return the digest of all that the verdict on a bench with light on it depends on."""
-    return digest([VERSION, setup.digest(), lit.poses, lit.values, lit.lasers])
+    return digest([VERSION, setup.digest(), lit.poses, lit.values, lit.lasers, lit.spans])
 
 
 def judge(setup: Setup, lit: Lit) -> Audit:
@@ -63,13 +66,13 @@ def judge(setup: Setup, lit: Lit) -> Audit:
     The last verdicts stay in memory, so that the edge of a client in the same process traces no light twice: by every
     digit, as a digest is of rounded numbers. Nothing of that is read from a disk: an edge believes no file of a client.
     """
-    key = (setup.digest(), json.dumps(as_json([lit.poses, lit.values, lit.lasers]), sort_keys=True))
+    key = (setup.digest(), json.dumps(as_json([lit.poses, lit.values, lit.lasers, lit.spans]), sort_keys=True))
     with _VERDICTS_LOCK:  # a client plans in another thread than the edge in its process
         known = _VERDICTS.pop(key, None)
     if known is None:
         from pico.optics.audit.audit import audit
 
-        known = audit(setup, lit.poses, lit.values, lit.lasers)
+        known = audit(setup, lit.poses, lit.values, lit.lasers, lit.spans)
     with _VERDICTS_LOCK:
         _VERDICTS[key] = known
         while len(_VERDICTS) > MOST:
@@ -102,8 +105,9 @@ def lit_by(setup: Setup, plan: Plan, seen: Observation) -> Lit:
         scanned |= op.primitive in ("scan", *SEARCHING)
     lasers = lasers_of(setup, poses, values)
     apart = any(setup.type_of(name).optics.element != "source" for name in opened)
-    return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned),
-               bool(setup.lab.policy.enclosed))  # fmt: skip
+    spans, steered = driven_in_light(setup, plan, seen, values, lasers)
+    return Lit(poses, values, lasers, frozenset(n for n in lasers if n in opened or apart or scanned or n in steered),
+               bool(setup.lab.policy.enclosed), spans)  # fmt: skip
 
 
 def _opens(setup: Setup, op: Operation) -> bool:
@@ -146,7 +150,7 @@ def audit_of(setup: Setup, plan: Plan, seen: Observation, judged: Tracing = judg
     findings: dict[str, Finding] = {}
     for verdict, where in verdicts:
         for f in verdict.findings if verdict is not None else ():
-            findings.setdefault(f.branch, _where_searched(f, where))
+            findings.setdefault(f.branch, replace(f, searched=where))
     carried = tuple(_carried(setup, plan, seen, lit))
     classes = {n: laser_class(setup, n, lit.values.get(n, {}))[0] for n in lit.lasers}
     unsaid = sorted({name for verdict in known for name in verdict.unjudged})
@@ -172,18 +176,11 @@ def told_of(plan: Plan, audit: Audit, lit: Lit) -> tuple[Diagnostic, ...]:
     )
 
 
-def _where_searched(found: Finding, where: str) -> Finding:
-    """Return a finding that says in which direction of a search it is."""
-    if not where:
-        return found
-    text = f"the search can reach this at {where}: narrow its bounds, or end the beam in a block"
-    return replace(found, hint="; ".join(words for words in (text, found.hint) if words))
-
-
 def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[tuple[Lit, str]]:
-    """Yield the bench at values over the range of each tunable that is scanned or searched, and in the corners of what
-    several span, each with where that is, in words."""
-    searched = {(component, tunable): bounds for component, tunable, bounds in _searched(setup, plan)}
+    """Yield the bench at values over the range of each tunable that is scanned or searched, or driven in light, and in
+    the corners of what several span, each with where that is, in words."""
+    driven = {(name, tunable): ends for name, own in lit.spans.items() for tunable, ends in own.items()}
+    searched = {**driven, **{(name, tunable): bounds for name, tunable, bounds in searched_in(setup, plan)}}
     for one, (low, high) in searched.items():
         for n in range(SCANNED):
             yield _at(lit, {one: low + (high - low) * n / (SCANNED - 1)})
@@ -196,22 +193,11 @@ def _at(lit: Lit, point: Mapping[tuple[str, str], float]) -> tuple[Lit, str]:
     values = {name: dict(own) for name, own in lit.values.items()}
     for (component, tunable), value in point.items():
         values.setdefault(component, {})[tunable] = value
-    return replace(lit, values=values), ", ".join(f"{c}.{t} at {value:.4g}" for (c, t), value in point.items())
-
-
-def _searched(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float, float]]]:
-    """Yield the tunables that a plan scans or searches, by component and name, with the range that it does so over."""
-    for op in plan.operations:
-        if op.primitive in SEARCHING:
-            for address, bounds in searched_by(op.arguments).items():
-                component, _, tunable = address.partition(".")
-                if bounds is not None:
-                    yield component, tunable, bounds
-            continue
-        tunable = str(op.arguments.get("tunable"))
-        kind = setup.type_of(op.component).tunables.get(tunable) if op.component in setup.lab.inventory else None
-        if op.primitive == "scan" and kind is not None and kind.range is not None:
-            yield op.component, tunable, kind.range
+    passed = {component for component, _ in point}
+    spans = {name: own for name, own in lit.spans.items() if name not in passed}  # the bench itself is judged over them
+    return replace(lit, values=values, spans=spans), ", ".join(
+        f"{c}.{t} at {value:.4g}" for (c, t), value in point.items()
+    )
 
 
 def _carried(setup: Setup, plan: Plan, seen: Observation, lit: Lit) -> Iterator[Finding]:

@@ -13,7 +13,7 @@ from itertools import product
 
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.optics.audit.branches import Branches
+from pico.optics.audit.branches import Branches, Spans
 from pico.optics.audit.damage import damaged, unjudged
 from pico.optics.audit.ends import open_ends
 from pico.optics.audit.findings import Audit, Finding
@@ -31,9 +31,13 @@ STRICT = 1e-6
 """The same as a share of the laser's power, where no limit is known."""
 
 
-def audit(setup: Setup, poses: Mapping[str, Pose], values: Values, lasers: Collection[str] | None = None) -> Audit:
+def audit(
+    setup: Setup, poses: Mapping[str, Pose], values: Values, lasers: Collection[str] | None = None,
+    spans: Spans | None = None,
+) -> Audit:  # fmt: skip
     """Return the verdict on the light among what stands at `poses`, tunables set to `values` in the units of the
-    catalog; of these `lasers`, else of those that shine. What nobody knows is taken at each value that it may have."""
+    catalog; of these `lasers`, else of those that shine. What nobody knows is taken at each value that it may have.
+    `spans`: between which values tunables may be driven meanwhile."""
     lit = tuple(sorted(lasers)) if lasers is not None else lasers_of(setup, poses, values)
 
     def traced(laser: str, changed: Values) -> Light:
@@ -48,7 +52,7 @@ def audit(setup: Setup, poses: Mapping[str, Pose], values: Values, lasers: Colle
         first = light.crossings[0]
         wavelength = first.beam.wavelength * 1e6
         classes[laser] = class_of(first.power, wavelength)
-        branches = Branches(setup, light, laser, classes[laser], class_1(wavelength))
+        branches = Branches(setup, light, laser, classes[laser], class_1(wavelength), spans or {})
         for one in _judged(branches, partial(traced, laser), known):
             if one.branch not in found or one.power > found[one.branch].power:
                 found[one.branch] = told_with(one, taken)

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from pico.model.arming import LaserClass
+from pico.model.arming import LaserClass, within
 from pico.model.pose import short
 from pico.model.setup import Setup
 from pico.optics.audit.findings import Finding, Kind
@@ -13,16 +14,29 @@ from pico.optics.following import Crossing
 from pico.optics.light import Light
 from pico.optics.part import Part
 
+Spans = Mapping[str, Mapping[str, tuple[float, float]]]
+"""Between which values, in the units of the catalog, tunables may be driven while light is on, by component."""
+ORDINARY: LaserClass = "3R"
+"""Up to this class only what a mirror may be driven to counts, and housings end beams; above it the full range, and
+blocks alone."""
+
 
 @dataclass(frozen=True, eq=False)
 class Branches:
-    """The light of one laser of a class; `limit` of class 1 at its wavelength [mW], None where none is known."""
+    """The light of one laser of a class; `limit` of class 1 at its wavelength [mW], None where none is known; `spans`:
+    between which values its mirrors may be driven."""
 
     setup: Setup
     light: Light
     laser: str
     laser_class: LaserClass
     limit: float | None
+    spans: Spans = field(default_factory=dict)
+
+    @property
+    def ordinary(self) -> bool:
+        """Whether the laser is of class 3R or lower."""
+        return within(self.laser_class, ORDINARY)
 
     @property
     def harmless(self) -> float:

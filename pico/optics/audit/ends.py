@@ -1,5 +1,8 @@
 """Where branches end: what is above the class 1 limit must end on a part that is declared to end beams.
 
+Up to class 3R the housings of irises, detectors and couplers and the mounts of optics end beams, too: what they scatter
+is harmless.
+
 Branches that end within a pupil of each other (7 mm, the aperture that IEC 60825-1 measures through) may be looked into
 at once: those of the way that light is meant to take may interfere, and their fields add up; what goes astray adds its
 power.
@@ -52,6 +55,8 @@ def ending(branches: Branches, crossing: Crossing) -> str:
     if element == "source":
         comes = f"comes back to {name}" if name == branches.laser else f"comes to the laser {name}"
         return "" if declared else comes
+    if crossing.clipped >= 1.0 and element in _STOPS and _housed(branches, part):
+        return ""
     if crossing.event == "detected" or crossing.clipped >= 1.0:
         return "" if declared else f"ends on {name}, which is not declared to end beams"
     return _outside(branches, crossing, part)
@@ -61,7 +66,8 @@ def _outside(branches: Branches, crossing: Crossing, part: Part) -> str:
     """Return in words where a beam ends on the outside of a part; empty where that is a block, and takes it. A block
     that gives no `opening` (nor `diameter`) takes what comes to it from any side."""
     if part.optic.center is not None or not branches.setup.ends_beams(part.name):
-        return f"ends on the housing of {part.name} at {spot(crossing)}"
+        housing = f"ends on the housing of {part.name} at {spot(crossing)}"
+        return "" if _housed(branches, part) else housing
     opening = part.kind.number("opening", "mm") or part.kind.number("diameter", "mm")
     if opening is None:
         return ""
@@ -84,6 +90,18 @@ KEEPS = frozenset((
     "roof_mirror", "shutter", "slit", "source", "spatial_filter", "waveplate", "wollaston",
 ))  # fmt: skip
 """Elements that absorb what they neither send on nor send astray."""
+
+
+_STOPS = frozenset(("iris", "slit"))
+"""Elements that are made to stop light."""
+_HOUSED = KEEPS - {"block", "none", "source"}
+"""Elements whose housings and mounts end beams up to class 3R: not a laser, nor a block beside its opening."""
+
+
+def _housed(branches: Branches, part: Part) -> bool:
+    """Return whether the housing of a part ends a beam of this laser; not if the lab says that the part ends none."""
+    refused = branches.setup.lab.inventory[part.name].ends_beams is False
+    return branches.ordinary and not refused and part.kind.optics.element in _HOUSED
 
 
 def _hint(branches: Branches, crossing: Crossing) -> str:
@@ -126,7 +144,8 @@ def _on_the_way(branches: Branches, number: int, crossing: Crossing) -> Iterator
     if part is None or ending(branches, crossing):
         return
     stopped = crossing.power * crossing.clipped
-    if stopped > branches.harmless and crossing.clipped > _ROUND_OFF and not branches.setup.ends_beams(name):
+    takes = branches.setup.ends_beams(name) or _housed(branches, part)
+    if stopped > branches.harmless and crossing.clipped > _ROUND_OFF and not takes:
         text = f"is stopped in part by the edge of {name} at {spot(crossing)}"
         hint = f"a wider one, or one that is declared to end beams: `ends_beams: true` for {name}"
         yield branches.finding("edge", number, text, stopped, hint=hint)

@@ -37,6 +37,8 @@ class Finding:
     at: tuple[float, float, float] = (0.0, 0.0, 0.0)
     path: tuple[tuple[float, float], ...] = ()
     hint: str = ""
+    # Where a search, or a tunable that is driven, leads to this, in words; empty if it is so where the plan leads to.
+    searched: str = ""
 
     @property
     def dangerous(self) -> bool:
@@ -86,13 +88,30 @@ def audit_from_json(data: Mapping[str, Any]) -> Audit:
 
 
 def told(audit: Audit, *, refused: frozenset[str], drawn: str) -> tuple[Diagnostic, ...]:
-    """Return the findings as diagnostics: an error where it is of a laser above class 2 among `refused`, else a
-    warning. `drawn`: what to type for a picture with the branch in red."""
-    found = []
+    """Return the findings as diagnostics, those of one cause as one with a count: an error where it is of a laser above
+    class 2 among `refused`, else a warning. `drawn`: what to type for a picture with the branch in red."""
+    causes: dict[tuple[str, ...], list[Finding]] = {}
     for one in audit.findings:
-        wrong = one.dangerous and one.source in refused
-        hint = "; ".join(words for words in (one.hint, f"{drawn} draws it in red" if one.path else "") if words)
-        tell = error if wrong else warning
-        text = f"the beam of {one.source} (class {one.laser_class}) is not safe: {one.text}"
-        found.append(tell(AUDIT, text, hint=hint, address=one.component or one.source))
-    return tuple(found)
+        causes.setdefault(_cause(one), []).append(one)
+    return tuple(_said(of, refused, drawn) for of in causes.values())
+
+
+def _cause(one: Finding) -> tuple[str, ...]:
+    """Return what findings of one cause have in common: a search, else how and on which part a beam ends."""
+    if one.searched:
+        return (one.source, "searched")
+    return (one.source, one.kind, one.component or one.where)
+
+
+def _said(of: list[Finding], refused: frozenset[str], drawn: str) -> Diagnostic:
+    """Return findings of one cause in words: the most powerful, and how many there are."""
+    one = max(of, key=lambda f: f.power)
+    text = f"the beam of {one.source} (class {one.laser_class}) is not safe: {one.text}"
+    reached = ""
+    if one.searched:
+        reached = f"the search can reach this at {one.searched}: narrow its bounds, or end the beam in a block"
+    if len(of) > 1:
+        text += f", the most powerful of {len(of)} such branches"
+    hint = "; ".join(words for words in (reached, one.hint, f"{drawn} draws it in red" if one.path else "") if words)
+    tell = error if one.dangerous and one.source in refused else warning
+    return tell(AUDIT, text, hint=hint, address=one.component or one.source)

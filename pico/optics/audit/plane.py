@@ -10,7 +10,8 @@ order in e and t: at 100 mrad it is right to 1 %.
 What is sampled: where a branch may leave `MOST_RISE`, each mirror on its way is turned to the corners, edges and middle
 of its range, alone and all together, and the light is traced: there it must end on a block each time. Between samples
 it is taken to do so, too: an opening is convex, and the spot moves with the angle. A raster search stays within the
-range.
+range. Up to class 3R the range is what mirrors may be driven to (`pico.optics.audit.turns`), and a beam may leave the
+plane if it ends on a block or a housing.
 
 Heights of lenses on stages, and whatever else steers, count as they are set.
 """
@@ -28,6 +29,7 @@ from pico.model.quantities import QuantityError, convert
 from pico.optics.audit.branches import Branches
 from pico.optics.audit.ends import ending
 from pico.optics.audit.findings import Finding
+from pico.optics.audit.turns import turns
 from pico.optics.axis import Values
 from pico.optics.following import Crossing
 from pico.optics.light import Light
@@ -86,19 +88,19 @@ def elevation(crossing: Crossing) -> float:
 def _along(branches: Branches, start: Spread, before: Crossing | None, crossing: Crossing) -> Spread:
     """Return the spread of a beam at a crossing, from that at the crossing before it."""
     part = branches.part(before) if before is not None else None
-    spread = start if part is None or before is None else _behind(start, part, before, crossing)
+    spread = start if part is None or before is None else _behind(branches, start, part, before, crossing)
     length = crossing.beam.length - (before.beam.length if before else 0.0)
     return Spread(spread.rise, spread.height + length * spread.rise, spread.turn)
 
 
-def _behind(start: Spread, part: Part, before: Crossing, onward: Crossing) -> Spread:
+def _behind(branches: Branches, start: Spread, part: Part, before: Crossing, onward: Crossing) -> Spread:
     """Return the spread of a beam behind a part."""
     yaw = math.radians(part.kind.pose.tolerance.yaw + 3 * part.kind.repeatability.yaw)
     rise = turn = 0.0
     element = part.kind.optics.element
     if before.event == "reflected":
-        (low, high), now = reach(part, "tilt"), turned(part, "tilt")
-        tip = max(abs(end - turned(part, "tip")) for end in reach(part, "tip"))
+        (low, high), now = reach(branches, part, "tilt"), turned(part, "tilt")
+        tip = max(abs(end - turned(part, "tip")) for end in reach(branches, part, "tip"))
         square = abs(float(before.beam.along @ part.optic.normal))
         aside = start.turn + tip + yaw
         least = max(0.0, math.acos(min(1.0, square)) - aside)
@@ -125,14 +127,14 @@ def _bends(part: Part, onward: Crossing) -> float:
     return bend + (max((4 / abs(r) for r in radii if r), default=0.0) if curved else 0.0)
 
 
-def reach(part: Part, tunable: str) -> tuple[float, float]:
-    """Return the range of an angle of a mirror [rad]: as it is where it has none, all round where none is given."""
-    kind = part.kind.tunables.get(tunable)
-    if kind is None:
+def reach(branches: Branches, part: Part, tunable: str) -> tuple[float, float]:
+    """Return between which angles a mirror may be turned [rad]: 0 if it can't be, all round if it has no range."""
+    if tunable not in part.kind.tunables:
         return 0.0, 0.0
-    if kind.range is None:
+    ends = turns(branches, part, tunable)
+    if ends is None:
         return -math.pi / 2, math.pi / 2
-    low, high = (_radians(part.kind, tunable, end) for end in kind.range)
+    low, high = (_radians(part.kind, tunable, end) for end in ends)
     return low, high
 
 
@@ -156,14 +158,14 @@ def _tilts(part: Part | None) -> bool:
 
 
 def _settings(branches: Branches, mirrors: tuple[str, ...], values: Values) -> list[Mapping[str, Any]]:
-    """Return tunables by mirror: as they are; each at nine places of its range, the others as they are; and all in
-    corners of theirs, in each corner with each of the other where they are two, else in the same."""
+    """Return tunables by mirror: as they are; each at nine places of what it may be turned to, the others as
+    they are; and all in corners of theirs, in each corner with each of the other where they are two, else in the same."""
     found: list[Mapping[str, Any]] = [{}]
     corners: list[list[Mapping[str, Any]]] = []
     for name in mirrors:
-        kind, own = branches.light.parts[name].kind, values.get(name, {})
-        keys = [key for key in ("tip", "tilt") if key in kind.tunables]
-        ends = [_ends(kind, key, own) for key in keys]
+        part, own = branches.light.parts[name], values.get(name, {})
+        keys = [key for key in ("tip", "tilt") if key in part.kind.tunables]
+        ends = [_ends(branches, part, key, own) for key in keys]
         grid = [{name: {**own, **dict(zip(keys, at, strict=True))}} for at in product(*ends)]
         found += grid
         corners.append([grid[n] for n in _corners(ends)])
@@ -173,8 +175,8 @@ def _settings(branches: Branches, mirrors: tuple[str, ...], values: Values) -> l
     return [*found, *({k: v for one in row for k, v in one.items()} for row in together)]
 
 
-def _ends(kind: ComponentType, key: str, own: Mapping[str, Any]) -> tuple[float, ...]:
-    low, high = kind.tunables[key].range or (float(own.get(key, 0.0)),) * 2
+def _ends(branches: Branches, part: Part, key: str, own: Mapping[str, Any]) -> tuple[float, ...]:
+    low, high = turns(branches, part, key) or (float(own.get(key, 0.0)),) * 2
     return (low, (low + high) / 2, high)
 
 
@@ -188,6 +190,8 @@ def _smaller(branches: Branches, number: int) -> str:
     tilting = dict.fromkeys(c.component for c in branches.light.way(number)[:-1] if _tilts(branches.part(c)))
     if not tilting:
         return "put blocks around what it may hit"
+    if branches.ordinary:
+        return f"put a beam block where it goes, or keep {', '.join(tilting)} closer to where they are set"
     types = dict.fromkeys(branches.light.parts[name].kind.name for name in tilting)
     made = next(iter(types))
     return (
@@ -207,7 +211,7 @@ def _worst(
             if steep <= MOST_RISE or crossing.power <= branches.harmless:
                 continue
             seen = True
-            goes_on = crossing.event not in ("blocked", "detected")
+            goes_on = crossing.event not in ("blocked", "detected") and not branches.ordinary
             if (goes_on or ending(sampled, crossing)) and (steepest is None or steep > steepest[0]):
                 steepest = steep, sampled, at, setting
     hint = _smaller(branches, number)
