@@ -8,9 +8,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from pico.model.catalog import Tunable
 from pico.model.goal import Goal
 from pico.model.observation import Observation, with_value
 from pico.model.pose import Pose, angle_between
+from pico.model.quantities import convert
 from pico.model.setup import Setup
 from pico.model.vocabulary import measured_in
 from pico.optimize.problem import Nominal
@@ -36,8 +38,8 @@ _USUAL = 4.0
 """By how much the logarithm of a power falls until it is dark, where the detector's noise is not known."""
 _ROOM = 2.0
 """How far a mirror is searched, as a multiple of three standard deviations of what is likely to be wrong."""
-_LEAST = 1.0
-"""How far it is searched at least [mrad]."""
+REACH = 5.0
+"""How far it is searched at least, and if nothing is known of what may be wrong, unless its trim is larger [mrad]."""
 _AIMED = 3
 """How often the nominal beam is brought nearer to where it is wanted; once would do if light were linear."""
 _FOLLOWED = 8
@@ -48,19 +50,28 @@ def within_reach(
     setup: Setup, seen: Observation, goal: Goal, former: Sequence[Goal] = (), aim: Mapping[str, float] | None = None
 ) -> Goal:
     """Return a goal whose mirrors are searched no further than is likely to be wrong, around where they stand and
-    around where they are to `aim`: whole ranges send beams to where nothing ends them."""
+    around where they are to `aim`: whole ranges send beams to where nothing ends them. If the model cannot tell what is
+    likely, that is `REACH`, or the trim of a mirror if that is larger."""
     steered = [a for a in goal.tunables if a.rpartition(".")[2] in STEERS]
-    if not steered or (told := nominal(setup, set_to(seen, aim or {}), goal, former)) is None:
+    if not steered:
         return goal
+    told = nominal(setup, set_to(seen, aim or {}), goal, former)
     bounds = dict(goal.tunables)
     for n, address in enumerate(goal.tunables):
         component, _, tunable = address.partition(".")
         about = (seen.known_values.get(component, {}).get(tunable), (aim or {}).get(address))
         known = [value for value in about if isinstance(value, int | float)]
         if address in steered and known:
-            room, (low, high) = max(_ROOM * told.reach(n), _LEAST), bounds[address]
+            kind, (low, high) = setup.type_of(component).tunables[tunable], bounds[address]
+            least = _in_unit(REACH, kind)
+            room = max(least, _ROOM * told.reach(n) if told else kind.restore.trim or 0.0)
             bounds[address] = max(low, round(min(known) - room, 3)), min(high, round(max(known) + room, 3))
     return replace(goal, tunables=bounds)
+
+
+def _in_unit(angle: float, kind: Tunable) -> float:
+    """Return an angle [mrad] in the unit of a tunable."""
+    return angle if kind.unit in ("", "mrad") else float(convert(f"{angle!r} mrad", kind.unit))
 
 
 def aimed(setup: Setup, seen: Observation, goal: Goal, meant: Observation) -> dict[str, float]:

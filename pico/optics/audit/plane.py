@@ -159,7 +159,7 @@ def _tilts(part: Part | None) -> bool:
 
 def _settings(branches: Branches, mirrors: tuple[str, ...], values: Values) -> list[Mapping[str, Any]]:
     """Return tunables by mirror: as they are; each at nine places of what it may be turned to, the others as
-    they are; and all in corners of theirs, in each corner with each of the other where they are two, else in the same."""
+    they are; and all in corners of theirs, in each corner with each of the other of two, else in the same."""
     found: list[Mapping[str, Any]] = [{}]
     corners: list[list[Mapping[str, Any]]] = []
     for name in mirrors:
@@ -204,11 +204,11 @@ def _worst(
     branches: Branches, tried: list[tuple[Mapping[str, Any], Branches]], number: int, rise: float
 ) -> Finding | None:
     """Return the finding about a branch that may rise so far, None where it ends on a block wherever it was tried."""
-    steepest, seen = None, False
+    steepest, seen = None, branches.ordinary
     for setting, sampled in tried:
         for at, crossing in enumerate(sampled.light.crossings):
             steep = abs(elevation(crossing))
-            if steep <= MOST_RISE or crossing.power <= branches.harmless:
+            if crossing.power <= branches.harmless or not _counts(branches, sampled, at, setting):
                 continue
             seen = True
             goes_on = crossing.event not in ("blocked", "detected") and not branches.ordinary
@@ -229,3 +229,11 @@ def _worst(
     before = crossing.component or "the edge of the table"
     where = f"may leave the plane of the table by up to {1000 * rise:.3g} mrad before {before}"
     return branches.finding("plane", number, where, crossing.power, hint=hint)
+
+
+def _counts(branches: Branches, sampled: Branches, at: int, setting: Mapping[str, Any]) -> bool:
+    """Return whether it counts where a beam comes to: up to class 3R behind any mirror that was turned, as there no
+    bound on how far it rises is kept; else wherever it left the plane."""
+    if not branches.ordinary:
+        return abs(elevation(sampled.light.crossings[at])) > MOST_RISE
+    return any(crossing.component in setting for crossing in sampled.light.way(at)[:-1])
