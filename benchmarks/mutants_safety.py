@@ -37,6 +37,7 @@ SAFETY: dict[str, Module] = {
     "pico/policy/audit.py": Module(("tests/policy",)),
     "pico/policy/beams.py": Module(("tests/policy",)),
     "pico/policy/dose.py": Module(("tests/policy",), ("tests/edge",)),
+    "pico/policy/driven.py": Module(("tests/policy",)),
     "pico/planning/checks/emission.py": Module(("tests/planning/checks",), ("tests/edge",)),
     "pico/planning/checks/beams.py": Module(("tests/planning/checks",), ("tests/policy",)),
     "pico/model/arming.py": Module(("tests/model",), ("tests/policy",)),

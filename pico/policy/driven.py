@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 
 from pico.model.arming import within
@@ -10,7 +9,7 @@ from pico.model.observation import Observation
 from pico.model.operation import searched_by
 from pico.model.plan import Plan
 from pico.model.setup import Setup
-from pico.optics.audit.branches import ORDINARY, Spans
+from pico.optics.audit.findings import ORDINARY, Spans
 from pico.optics.audit.lasers import laser_class
 from pico.optics.axis import Values
 from pico.planning.checks.emission import SEARCHING
@@ -33,7 +32,9 @@ def driven_in_light(
 
     def widen(component: str, tunable: str, *numbers: object) -> None:
         known = [float(n) for n in numbers if isinstance(n, int | float) and not isinstance(n, bool)]
-        whole = setup.type_of(component).tunables[tunable].range or (-math.inf, math.inf)
+        whole = setup.type_of(component).tunables[tunable].range
+        if whole is None:  # counts as turned all round anyway
+            return
         ends = known if len(known) == len(numbers) else [*known, *whole]
         own = found.setdefault(component, {})
         own[tunable] = min(*ends, *own.get(tunable, ends)), max(*ends, *own.get(tunable, ends))
@@ -64,7 +65,8 @@ def searched_in(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[floa
         if op.primitive in SEARCHING:
             for address, bounds in searched_by(op.arguments).items():
                 component, _, tunable = address.partition(".")
-                kind = setup.type_of(component).tunables.get(tunable)
+                known = component in setup.lab.inventory
+                kind = setup.type_of(component).tunables.get(tunable) if known else None
                 if (bounds := bounds or (kind.range if kind and tunable in ANGLES else None)) is not None:
                     yield component, tunable, bounds
             continue

@@ -20,7 +20,8 @@ BRANCH = "laser → hwp → p1 → ends on the housing of p2 at (490, 420): 0.80
 
 
 def across(shel: Path) -> None:
-    """Want the second polarizer turned so that its side is in the beam."""
+    """Want the second polarizer turned so that its side is in the beam, and say that its housing is no end for one."""
+    edit(shel / "lab.yaml", "  p2:\n", "  p2:\n    ends_beams: false\n")
     edit(shel / "state" / "table.yaml", f"{PLACE}0", f"{PLACE}90")
 
 

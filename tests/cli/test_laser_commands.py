@@ -96,6 +96,7 @@ def test_it_is_refused_to_whom_the_policy_does_not_name_and_beyond_class_and_hou
 
 
 def test_an_arming_onto_a_housing_is_refused_by_the_audit_and_arms_nothing(guarded: Path, pico: Pico) -> None:
+    edit(guarded / "lab.yaml", "  p2:\n", "  p2:\n    ends_beams: false\n")
     edit(
         guarded / "state" / "table.yaml",
         "      x: 520\n      y: 420\n      yaw: 0",

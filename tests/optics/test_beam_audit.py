@@ -11,7 +11,8 @@ import pytest
 from audited import Bench, carrying, plan_of, said, setting, shipped, states
 
 from pico.diagnostics import Diagnostic
-from pico.model.operation import Operation
+from pico.model.catalog import Axis
+from pico.model.operation import Operation, Reason
 from pico.optics.audit.audit import audit
 from pico.optics.audit.branches import Branches
 from pico.optics.audit.limits import class_1, class_of
@@ -395,3 +396,75 @@ def test_a_declaration_of_a_lab_is_in_its_digest_and_those_of_the_catalog_are_as
         catalog["beam_camera"], optics=replace(catalog["beam_camera"].optics, ends_beams=None)
     )
     assert replace(bench.setup, catalog=catalog).digest() == bench.setup.digest()
+
+
+ORDINARY: dict[str, Callable[[], Bench]] = {
+    "a camera beside its aperture": lambda: shel().move("cam", dy=9),
+    "a camera turned away": lambda: shel().move("cam", dyaw=90),
+    "a lens turned across": lambda: two_arms().move("in_100", dyaw=90),
+    "the leaves of an iris": lambda: two_arms().set("iris_in", opening=0.4),
+    "a mirror with a long screw": lambda: folded(tilt=70),
+    "two mirrors that may be tilted": lambda: two_folds(70.0),
+}
+
+
+@pytest.mark.parametrize("name", ORDINARY)
+def test_housings_and_long_screws_are_hazards_above_class_3r_only(name: str) -> None:
+    bench = ORDINARY[name]()
+    assert not [d.summary for d in said(bench)]
+    assert {d.severity for d in said(brighter(bench)) if "damages" not in d.summary} == {"error"}
+
+
+def test_a_part_that_the_lab_says_ends_no_beam_does_not_up_to_class_3r_either() -> None:
+    bench = shel().move("cam", dy=9)
+    lab = bench.setup.lab
+    shiny = replace(lab.inventory["cam"], ends_beams=False)
+    bench = replace(bench, setup=replace(bench.setup, lab=replace(lab, inventory={**lab.inventory, "cam": shiny})))
+    assert [d.severity for d in said(bench) if "ends on the housing of cam" in d.summary] == ["error"]
+
+
+@pytest.mark.parametrize("axis", ["homed", "open_loop"])
+def test_a_mirror_whose_angle_is_unknown_counts_over_its_full_range_at_any_class(axis: str) -> None:
+    bench = folded(tilt=70)
+    if axis == "open_loop":
+        kind = bench.setup.type_of("fold")
+        tilt = replace(kind.tunables["tilt"], axis=Axis(kind="open_loop", speed=60))
+        kind = replace(kind, tunables={**kind.tunables, "tilt": tilt})
+        bench = replace(bench, setup=replace(bench.setup, catalog={**bench.setup.catalog, kind.name: kind}))
+    else:
+        bench = bench.unset("fold", "tilt")
+    assert any("fold → may leave the plane" in d.summary for d in said(bench) if d.severity == "error")
+
+
+@pytest.mark.parametrize(
+    ("before", "to", "wrong"), [(0.0, 2.0, False), (0.0, 40.0, True), (40.0, 0.0, True), (-40.0, 40.0, True)]
+)
+@pytest.mark.parametrize("tunable", ["tip", "tilt"])
+def test_a_mirror_that_is_driven_in_light_counts_over_all_that_it_passes(
+    tunable: str, before: float, to: float, wrong: bool
+) -> None:
+    bench = folded(tilt=70).set("laser", emission=True, shutter="open").set("fold", **{tunable: before})
+    driven = setting("fold", tunable, to)
+    assert ("error" in {d.severity for d in said(bench, driven)}) is wrong
+    shut = bench.set("laser", shutter="closed")
+    opened = replace(setting("laser", "shutter", "open", 2), after=("op1",))
+    assert ("error" in {d.severity for d in said(shut, driven, opened)}) is (to == 40.0)
+
+
+def test_homing_a_mirror_in_light_counts_over_its_full_range() -> None:
+    bench = folded(tilt=70).set("laser", emission=True, shutter="open")
+    home = Operation(id="home", primitive="home", component="fold", reason=Reason(kind="asked"))
+    assert "error" in {d.severity for d in said(bench, home)}
+    assert not list(said(bench.set("laser", shutter="closed"), home))
+
+
+def test_what_a_search_finds_wrong_is_one_error_with_a_count() -> None:
+    bench = shel(p2=135).without("cam").set("laser", emission=True, shutter="open")
+    bench = bench.put("bs", "beam_splitter_50_50", 700, 420)
+    sought = replace(
+        setting("p2", "angle", None, primitive="optimize"),
+        arguments={"goal": "g", "what": {"tunables": {"p2.angle": (134.0, 225.0)}}},
+    )
+    (found,) = said(bench, sought)
+    assert found.severity == "error" and "the most powerful of 2 such branches" in found.summary
+    assert found.hint.count("the search can reach this at p2.angle at") == 1

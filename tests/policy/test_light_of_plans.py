@@ -12,6 +12,7 @@ from judged import require
 from laser_lab import POSES, STRONGEST, UNKNOWN, bench, carry, commanded, observed, search, set_to, with_type
 
 from pico.diagnostics import ExitCode, PicoError
+from pico.model.catalog import Tunable
 from pico.model.operation import Operation, Reason
 from pico.model.plan import Base, LabRef, Plan, Target
 from pico.model.pose import Pose
@@ -371,3 +372,64 @@ def test_a_laser_that_shines_only_at_first_or_only_later_counts_while_parts_are_
     later = (OPEN, carry("holder", 700, 300, after=("op1",)))
     found, _ = audit_of(SETUP, plan(*later), observed(laser={"power": 4.0}), Judge())
     assert [f.source for f in found.findings] == ["laser"]
+
+
+# what is driven while light may be on
+
+
+ANGLE = Tunable(unit="mrad", range=(-70.0, 70.0), mover="motor", tolerance=0.05)
+STEERING = with_type(SETUP, "holder", tunables={"tip": ANGLE, "tilt": ANGLE, "angle": ANGLE})
+TURN = set_to("holder", "tip", 3.0)
+HOME = Operation(id="op1", primitive="home", component="holder", reason=Reason(kind="asked"))
+LATE = replace(set_to("laser", "shutter", "open", "op2"), after=("op1",))
+SHUT: Mapping[str, Any] = {**LIT, "shutter": "closed"}
+WHOLE = (-70.0, 70.0)
+
+
+@pytest.mark.parametrize(
+    ("operations", "laser", "tip", "spans"),
+    [
+        ((TURN,), LIT, 1.0, {"tip": (1.0, 3.0)}),
+        ((TURN,), LIT, 5.0, {"tip": (3.0, 5.0)}),
+        ((TURN, set_to("holder", "tip", -2.0, "op3")), LIT, 1.0, {"tip": (-2.0, 3.0)}),
+        ((TURN,), LIT, UNKNOWN, {"tip": WHOLE}),
+        ((TURN,), LIT, commanded(1.0), {"tip": WHOLE}),
+        ((TURN,), LIT, None, {"tip": WHOLE}),
+        ((TURN,), SHUT, 1.0, {}),
+        ((TURN, LATE), SHUT, 1.0, {}),
+        ((TURN, OPEN), SHUT, 1.0, {"tip": (1.0, 3.0)}),
+        ((TURN,), {**LIT, "power": STRONGEST}, 1.0, {}),
+        ((set_to("holder", "angle", 3.0),), LIT, 1.0, {}),
+        ((HOME,), LIT, 1.0, {"tip": WHOLE, "tilt": WHOLE}),
+        ((HOME,), SHUT, 1.0, {}),
+        ((search({"holder.tip": (-4, 4)}),), LIT, 1.0, {"tip": (-4.0, 4.0)}),
+        ((search({"holder.tip": None}, "teleoperate"),), LIT, 1.0, {"tip": WHOLE}),
+        ((search({"holder.angle": (-4, 4)}),), LIT, 1.0, {}),
+        ((search({"holder.tip": (-4, 4)}), set_to("holder", "tip", 9.0, "op3")), LIT, 1.0, {"tip": (-4.0, 9.0)}),
+    ],
+)
+def test_up_to_class_3r_what_is_driven_in_light_spans_what_it_passes(
+    operations: tuple[Operation, ...], laser: Any, tip: Any, spans: Any
+) -> None:
+    lit = lit_by(STEERING, plan(*operations), observed(laser=laser, holder={"tip": tip, "tilt": 0.0}))
+    assert lit.spans.get("holder", {}) == spans
+
+
+@pytest.mark.parametrize(("power", "opened"), [(0.9, {"laser"}), (4.0, {"laser"}), (STRONGEST, set())])
+def test_who_drives_a_mirror_in_light_answers_for_that_laser_up_to_class_3r(power: float, opened: set[str]) -> None:
+    """Above, a mirror counts over its full range when the laser is opened."""
+    for one in (TURN, HOME):
+        seen = observed(laser={**LIT, "power": power}, holder={"tip": 1.0, "tilt": 0.0})
+        assert lit_by(STEERING, plan(one), seen).opened == opened
+        assert not lit_by(STEERING, plan(one), observed(holder={"tip": 1.0, "tilt": 0.0})).opened
+    assert not lit_by(STEERING, plan(set_to("cam", "exposure", 7)), seen).opened
+
+
+def test_what_is_driven_in_light_is_judged_on_its_way_and_a_verdict_counts_for_that_way() -> None:
+    judged, seen = Judge(), observed(laser=LIT, holder={"tip": 1.0, "tilt": 0.0})
+    audit_of(STEERING, plan(TURN), seen, judged)
+    first, *others = judged.asked
+    assert first.spans == {"holder": {"tip": (1.0, 3.0)}}
+    assert [one.values["holder"]["tip"] for one in others] == [1.0, 1.5, 2.0, 2.5, 3.0]
+    assert not any(one.spans for one in others)
+    assert audit.audit_key(STEERING, first) != audit.audit_key(STEERING, replace(first, spans={}))

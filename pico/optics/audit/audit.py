@@ -11,13 +11,14 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from functools import partial
 from itertools import product
 
+from pico.model.arming import CLASSES
 from pico.model.pose import Pose
 from pico.model.setup import Setup
-from pico.optics.audit.branches import Branches, Spans
+from pico.optics.audit.branches import Branches
 from pico.optics.audit.damage import damaged, unjudged
 from pico.optics.audit.ends import open_ends
-from pico.optics.audit.findings import Audit, Finding
-from pico.optics.audit.lasers import lasers_of
+from pico.optics.audit.findings import Audit, Finding, Spans
+from pico.optics.audit.lasers import laser_class, lasers_of
 from pico.optics.audit.limits import class_1, class_of
 from pico.optics.audit.plane import out_of_plane
 from pico.optics.audit.unsettled import told_with, unsettled
@@ -51,7 +52,8 @@ def audit(
             continue
         first = light.crossings[0]
         wavelength = first.beam.wavelength * 1e6
-        classes[laser] = class_of(first.power, wavelength)
+        of = class_of(first.power, wavelength), laser_class(setup, laser, known.get(laser, {}))[0]
+        classes[laser] = max(of, key=CLASSES.index)  # what is unknown of the laser counts as the most dangerous
         branches = Branches(setup, light, laser, classes[laser], class_1(wavelength), spans or {})
         for one in _judged(branches, partial(traced, laser), known):
             if one.branch not in found or one.power > found[one.branch].power:

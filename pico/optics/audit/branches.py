@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from pico.model.arming import LaserClass, within
 from pico.model.pose import short
 from pico.model.setup import Setup
-from pico.optics.audit.findings import Finding, Kind
+from pico.optics.audit.findings import ORDINARY, Finding, Kind, Spans
 from pico.optics.following import Crossing
 from pico.optics.light import Light
 from pico.optics.part import Part
-
-Spans = Mapping[str, Mapping[str, tuple[float, float]]]
-"""Between which values, in the units of the catalog, tunables may be driven while light is on, by component."""
-ORDINARY: LaserClass = "3R"
-"""Up to this class only what a mirror may be driven to counts, and housings end beams; above it the full range, and
-blocks alone."""
 
 
 @dataclass(frozen=True, eq=False)

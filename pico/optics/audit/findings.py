@@ -16,6 +16,12 @@ Kind = Literal["end", "edge", "plane", "damage", "lost", "endless", "carried"]
 too strong for a part; `lost`: a part keeps it and does not say how; `endless`; `carried`: an arm carries a part through
 it."""
 
+Spans = Mapping[str, Mapping[str, tuple[float, float]]]
+"""Between which values, in the units of the catalog, tunables may be driven while light is on, by component."""
+ORDINARY: LaserClass = "3R"
+"""Up to this class only what a mirror may be driven to counts, and housings end beams; above it the full range, and
+blocks alone."""
+
 
 @record
 class Finding:

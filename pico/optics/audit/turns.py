@@ -19,7 +19,7 @@ def turns(branches: Branches, part: Part, tunable: str) -> tuple[float, float] |
     kind, value = part.kind.tunables[tunable], part.values.get(tunable)
     known = isinstance(value, int | float) and not isinstance(value, bool)
     blind = kind.axis is not None and kind.axis.kind == "open_loop"
-    if not branches.ordinary or not known or blind:
+    if not branches.ordinary or not known or blind or kind.range is None:
         return kind.range
     here = float(value)  # type: ignore[arg-type]
     low, high = branches.spans.get(part.name, {}).get(tunable, (here, here))
