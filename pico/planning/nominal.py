@@ -90,6 +90,17 @@ def aimed(setup: Setup, seen: Observation, goal: Goal, meant: Observation) -> di
     return {}
 
 
+def aimed_in_the_dark(setup: Setup, seen: Observation, goal: Goal) -> dict[str, float]:
+    """Return the same if mirrors are turned so far that the beam misses where it is wanted; else nothing."""
+    if seen_by(goal) or not any(address.rpartition(".")[2] in STEERS for address in goal.tunables):
+        return {}
+    try:
+        lost = NominalBench(setup, seen, places(setup, seen, goal)).lost
+    except Astray:
+        return {}
+    return aimed(setup, seen, goal, seen) if lost else {}
+
+
 def _aimed(setup: Setup, seen: Observation, goal: Goal) -> dict[str, float]:
     """Return the same by Newton's method from where the tunables stand; raises Astray."""
     import numpy as np

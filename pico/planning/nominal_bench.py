@@ -84,18 +84,19 @@ def _standing(setup: Setup, seen: Observation) -> dict[str, Pose]:
 
 class NominalBench:
     """A bench as seen, whose parts can be moved in thought: with all light on, and irises and shutters open. `offsets`:
-    of its light at all places, one after the other. Raises Astray where light does not come to one of them."""
+    of its light at all places, one after the other; `lost`: whether that comes there only as mirrors were meant. Raises
+    Astray where light does not come to one of them."""
 
     def __init__(self, setup: Setup, seen: Observation, ends: Sequence[Place]) -> None:
         from pico.optics.nominal.bench import Nominal
 
         values = {name: _open(own) for name, own in seen.known_values.items()}
         self.places, self.thought = ends, Nominal(setup, _standing(setup, seen), values)
-        self.light = self.thought.light()
+        self.light, self.lost = self.thought.light(), False
         try:
             self.offsets = self._offsets(self.light)
         except Astray:  # what its mirrors make up for is not seen: as they were meant, it comes there
-            self.thought = replace(self.thought, values=straight(values))
+            self.thought, self.lost = replace(self.thought, values=straight(values)), True
             self.light = self.thought.light()
             self.offsets = self._offsets(self.light)
 

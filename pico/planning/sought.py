@@ -16,7 +16,7 @@ from pico.model.vocabulary import measured_in
 from pico.optimize.choosing import Tuned, choose, usual_parameters
 from pico.optimize.problem import Nominal, nominal_from_json
 from pico.planning.asked import Ready
-from pico.planning.nominal import nominal, set_to
+from pico.planning.nominal import aimed_in_the_dark, nominal, set_to
 
 _NUMBER = re.compile(r"[A-Za-z_]\w*(?:\.[A-Za-z_]\w*)+")
 """One number of what is measured, and nothing else."""
@@ -50,14 +50,15 @@ def sought(
 def stages(
     setup: Setup, seen: Observation, ready: Ready, algorithm: str | None = None
 ) -> tuple[Sought, tuple[Sought, ...]]:  # fmt: skip
-    """Return what a goal that was made ready is sought as, and what is sought first where it is dark."""
-    aim = ready.aim or {}
+    """Return what a goal that was made ready is sought as, and what is sought first where it is dark. If by how mirrors
+    are set its light misses where it is wanted, the ray model says where they are set first."""
+    aim = ready.aim or aimed_in_the_dark(setup, seen, ready.goal)
     first = tuple(
         sought(setup, seen, label, goal, aim={a: v for a, v in aim.items() if a in goal.tunables})
         for label, goal in ready.first
     ) or before(setup, seen, ready.goal)  # fmt: skip
     former = [stage.goal for stage in first]
-    return sought(setup, seen, ready.name, ready.goal, former, algorithm, ready.aim), first
+    return sought(setup, seen, ready.name, ready.goal, former, algorithm, aim or None), first
 
 
 def before(setup: Setup, seen: Observation, goal: Goal) -> tuple[Sought, ...]:
