@@ -158,10 +158,16 @@ class Asked:
             half = (kind.period or 0.0) / 2
             yield f"{component}.{name}", kind.range or (-half, half)
 
+    def _steers(self, component: str) -> bool:
+        """Return whether motors, and no person, tip and tilt a component."""
+        kinds = self.setup.type_of(component).tunables
+        return self.has(component, *STEERS) and all(kinds[one].mover != "person" for one in STEERS)
+
     def mirrors_before(self, component: str, many: int) -> list[str]:
         """Return the last mirrors before a component that motors tip and tilt; raises PicoError where there are
         fewer."""
-        found = list(dict.fromkeys(n for n in self.way(component)[:-1] if n and self.has(n, *STEERS)))[-many:]
+        way = self.way(component)[:-1]
+        found = list(dict.fromkeys(n for n in way if n and self._steers(n)))[-many:]
         if len(found) < many:
             only = f"only {found[0]} is" if found else "there is none"
             mirrors = "two mirrors" if many == 2 else "a mirror"

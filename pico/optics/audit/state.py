@@ -3,13 +3,27 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from pico.diagnostics import Diagnostic
 from pico.manifest.load import Manifests
+from pico.model.setup import Setup
 from pico.model.state import place_of
 from pico.optics.audit.findings import told
 from pico.optics.audit.lasers import lasers_of
 from pico.optics.ends import stray_beams
+
+
+def _at_rest(setup: Setup, name: str) -> dict[str, Any]:
+    """Return the angles of a mirror as they are after power-up, for a state that does not say them: a plan takes those
+    that the bench reads."""
+    found = {}
+    for key, kind in setup.type_of(name).tunables.items():
+        if key in ("tip", "tilt"):
+            middle = sum(kind.range) / 2 if kind.range else 0.0
+            home = kind.axis.home if kind.axis else middle
+            found[key] = home if kind.initial is None else kind.initial
+    return found
 
 
 def check_light(read: Manifests) -> tuple[Diagnostic, ...]:
@@ -19,6 +33,7 @@ def check_light(read: Manifests) -> tuple[Diagnostic, ...]:
     setup, state = read.require()
     poses = {name: place_of(setup, state, name)[1] for name in setup.lab.inventory}
     values = {name: part.values for name, part in state.components.items()}
+    values |= {name: {**_at_rest(setup, name), **values.get(name, {})} for name in setup.lab.inventory}
     lasers = lasers_of(setup, poses, values)
     found: tuple[Diagnostic, ...] = ()
     ends: set[str] = set()

@@ -29,8 +29,9 @@ OFF = {"m1.tip": 3.0, "m1.tilt": -0.8, "m2.tip": -2.5, "m2.tilt": 0.7}
 
 
 @cache
-def bench(power: float = 2.0) -> Manifests:
-    """Return the fiber bench with steering mirrors of the catalog, nothing around it, and a laser of a power [mW]."""
+def bench(power: float = 2.0, angles: str = ", tip: 0, tilt: 0") -> Manifests:
+    """Return the fiber bench with steering mirrors of the catalog, nothing around it, and a laser of a power [mW];
+    `angles`: what its state says of those of the mirrors."""
     files = {str(path.relative_to(LAB)): path.read_bytes() for path in sorted(LAB.rglob("*.yaml"))}
     text = files["lab.yaml"].decode()
     for old, new in (
@@ -40,7 +41,8 @@ def bench(power: float = 2.0) -> Manifests:
     ):
         assert old in text
         text = text.replace(old, new)
-    return load_files({**files, "lab.yaml": text.encode()}, [], root="fiber")
+    state = files["state/table.yaml"].decode().replace(", tip: 0, tilt: 0", angles)
+    return load_files({**files, "lab.yaml": text.encode(), "state/table.yaml": state.encode()}, [], root="fiber")
 
 
 def seen(read: Manifests, mirrors: Mapping[str, float] | None = None) -> Observation:
@@ -72,9 +74,10 @@ def search(read: Manifests, mirrors: Mapping[str, float] | None = None) -> tuple
     return ready, told_of(plan, *audit_of(setup, plan, here))
 
 
-def test_the_manifest_is_valid_up_to_class_3r_and_not_above() -> None:
-    assert [d.code for d in check_light(bench())] == ["damage-threshold"]
-    strong = [d for d in check_light(bench(6.0)) if d.severity == "error"]
+@pytest.mark.parametrize("angles", [", tip: 0, tilt: 0", ""])
+def test_the_manifest_is_valid_up_to_class_3r_and_not_above(angles: str) -> None:
+    assert [d.code for d in check_light(bench(2.0, angles))] == ["damage-threshold"]
+    strong = [d for d in check_light(bench(6.0, angles)) if d.severity == "error"]
     assert any("m1 → may leave the plane of the table" in d.summary for d in strong)
 
 
