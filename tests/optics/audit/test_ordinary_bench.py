@@ -4,6 +4,7 @@ class 3R, also while it is aligned, and it is aligned from the dark."""
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -11,6 +12,7 @@ import pytest
 
 from pico.bench.ready.registry import made_ready
 from pico.diagnostics import Diagnostic
+from pico.manifest.catalog import load_catalog
 from pico.manifest.load import Manifests, load_files
 from pico.model.observation import Observation, ObservedComponent, ObservedValue
 from pico.model.operation import Operation, Reason
@@ -79,6 +81,14 @@ def test_the_manifest_is_valid_up_to_class_3r_and_not_above(angles: str) -> None
     assert [d.code for d in check_light(bench(2.0, angles))] == ["damage-threshold"]
     strong = [d for d in check_light(bench(6.0, angles)) if d.severity == "error"]
     assert any("m1 → may leave the plane of the table" in d.summary for d in strong)
+
+
+def test_a_mirror_that_a_person_turns_is_not_searched() -> None:
+    setup, _ = bench().require()
+    kinds = {**setup.catalog, "pickoff": replace(load_catalog()["mirror_flip"], name="pickoff")}
+    by_hand = replace(setup, catalog=kinds)
+    found = made_ready(by_hand, seen(bench()), ["fiber", "fc"])
+    assert set(found.goal.tunables) == set(MIRRORS)
 
 
 def test_a_search_without_bounds_is_let_through_up_to_class_3r_and_refused_once_above() -> None:
