@@ -23,7 +23,7 @@ from pico.optics.audit.limits import above_class_2
 from pico.optics.axis import Values, axis_of
 from pico.planning.checks.emission import SEARCHING, lets_out
 from pico.policy.beams import open_beams
-from pico.policy.driven import driven_in_light, searched_in
+from pico.policy.driven import driven_in_light, fine_steps, searched_in
 
 CORNERS = 4
 """Of so many tunables that are searched at once the corners that they span are judged, too."""
@@ -182,8 +182,9 @@ def _scans(setup: Setup, plan: Plan, lit: Lit) -> Iterator[tuple[Lit, str]]:
     driven = {(name, tunable): ends for name, own in lit.spans.items() for tunable, ends in own.items()}
     searched = {**driven, **{(name, tunable): bounds for name, tunable, bounds in searched_in(setup, plan)}}
     for one, (low, high) in searched.items():
-        for n in range(SCANNED):
-            yield _at(lit, {one: low + (high - low) * n / (SCANNED - 1)})
+        steps = max(SCANNED - 1, fine_steps(setup, *one, low, high) if one in driven else 0)
+        for n in range(steps + 1):
+            yield _at(lit, {one: low + (high - low) * n / steps})
     if 1 < len(searched) <= CORNERS:
         for ends in product(*searched.values()):
             yield _at(lit, dict(zip(searched, ends, strict=True)))

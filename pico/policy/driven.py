@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 
 from pico.model.arming import within
 from pico.model.observation import Observation
 from pico.model.operation import searched_by
 from pico.model.plan import Plan
+from pico.model.quantities import QuantityError, convert
 from pico.model.setup import Setup
 from pico.optics.audit.findings import ORDINARY, Spans
 from pico.optics.audit.lasers import laser_class
@@ -15,6 +17,9 @@ from pico.optics.axis import Values
 from pico.planning.checks.emission import SEARCHING
 from pico.policy.beams import open_beams
 
+FINE, MOST_STEPS = 3.5, 80
+"""The step between two trials of a mirror [mrad], by which its beam goes on by 7 mm, the width of a pupil, at 1 m; and
+how many steps there are at most."""
 ANGLES = ("tip", "tilt")
 """Tunables by which a mirror turns a beam."""
 
@@ -57,6 +62,17 @@ def driven_in_light(
         if tunable in ANGLES:
             widen(component, tunable, *bounds)
     return found, frozenset(steered)
+
+
+def fine_steps(setup: Setup, component: str, tunable: str, low: float, high: float) -> int:
+    """Return in how many steps a mirror is turned on trial from `low` to `high`, in the unit of the tunable, so that
+    its beam steps over no gap between housings into which an eye would look (FINE)."""
+    unit = setup.type_of(component).tunables[tunable].unit
+    try:
+        span = float(convert(f"{high - low!r} {unit}", "mrad"))
+    except QuantityError:
+        return MOST_STEPS
+    return min(MOST_STEPS, math.ceil(abs(span) / FINE))
 
 
 def searched_in(setup: Setup, plan: Plan) -> Iterator[tuple[str, str, tuple[float, float]]]:

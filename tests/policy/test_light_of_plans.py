@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -20,6 +21,7 @@ from pico.model.setup import Setup
 from pico.optics.audit.findings import Audit, Finding, told
 from pico.policy import audit
 from pico.policy.audit import Lit, audit_of, lit_by, told_of
+from pico.policy.driven import fine_steps
 
 SETUP = bench()
 OPEN, CLOSE = set_to("laser", "shutter", "open"), set_to("laser", "shutter", "closed")
@@ -433,3 +435,10 @@ def test_what_is_driven_in_light_is_judged_on_its_way_and_a_verdict_counts_for_t
     assert [one.values["holder"]["tip"] for one in others] == [1.0, 1.5, 2.0, 2.5, 3.0]
     assert not any(one.spans for one in others)
     assert audit.audit_key(STEERING, first) != audit.audit_key(STEERING, replace(first, spans={}))
+
+
+@pytest.mark.parametrize(("low", "high", "steps"), [(0.0, 0.0, 0), (-1.0, 1.0, 1), (-70.0, 70.0, 40), (0.0, 1e4, 80)])
+def test_a_mirror_is_turned_on_trial_in_steps_of_half_a_pupil_at_a_meter(low: float, high: float, steps: int) -> None:
+    kind = SimpleNamespace(tunables={"tip": Tunable(unit="mrad")})
+    setup: Any = SimpleNamespace(type_of=lambda name: kind)
+    assert fine_steps(setup, "m1", "tip", low, high) == steps
