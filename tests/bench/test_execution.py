@@ -175,5 +175,5 @@ def test_only_what_drives_an_edge_or_asks_instruments_themselves_is_asynchronous
         if any(isinstance(node, ast.AsyncFunctionDef | ast.Await) for node in ast.walk(ast.parse(path.read_text())))
     }
     asks_instruments = {f"commissioning/{name}.py" for name in ("pulling", "reaching", "swinging", "trying")}
-    asks_instruments |= {f"calibrating/{name}.py" for name in ("arms", "axes", "dark")}
+    asks_instruments |= {f"calibrating/{name}.py" for name in ("arms", "axes", "dark", "hands")}
     assert found == {"running/execution.py", "running/loop.py"} | asks_instruments
