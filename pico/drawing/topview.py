@@ -49,7 +49,8 @@ _COLORS: dict[str, Color] = {
 }
 _OPTIC_WIDTH = 3.0  # pixels
 _END = 9.0  # mm, of the circle where a line that nobody must miss ends
-REACH_LEGEND = "dashed arcs: reach of the arm · tick: where a component faces"
+FACES_LEGEND = "tick: where a component faces"
+REACH_LEGEND = f"dashed arcs: reach of the arm · {FACES_LEGEND}"
 _PLATE = 36.0  # mm, half of what is drawn for a slot
 _LENS = 16.0  # mm, of a camera's circle
 _DATUM: Color = (60, 66, 76)
@@ -129,7 +130,8 @@ def drawn(
     for name, robot in sorted(setup.lab.robots.items()):
         if robot.model == "xarm7":
             _draw_arm(canvas, name, robot, joints.get(name), size)
-    _draw_legend(canvas, setup, size, LEGEND if marks else legend(dimensions) if dimensions else REACH_LEGEND)
+    usual = REACH_LEGEND if setup.lab.robots else FACES_LEGEND
+    _draw_legend(canvas, setup, size, LEGEND if marks else legend(dimensions) if dimensions else usual)
     _draw_eyes(canvas, setup)
     moves = [step for step in steps if step.goal is not None]
     ghosts = {**ghosts, **goals_of(moves)}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import shutil
 from dataclasses import replace
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -15,9 +17,11 @@ import pico
 from pico.backends.sim.store import load_world, save_world
 from pico.backends.sim.world import FreePose
 from pico.bench.bench import Bench
-from pico.bench.picturing.contents import goals, marks, places
+from pico.bench.picturing.contents import goals, marks, places, steps
 from pico.drawing.conflict_marks import Mark
 from pico.history.examples.example import make_example
+from pico.model.operation import Operation, Reason
+from pico.model.pose import Pose
 
 P2 = "  p2:\n    pose:\n      x: 520"
 
@@ -112,3 +116,13 @@ def test_a_ring_is_drawn_as_arrows_between_two(folder: Path) -> None:
         image = bench.pictures.render(view="top", plan=plan)
         # p1 at x = 290, p2 at 520: the arrows bend to either side of the line between them
         assert red(image[:, 300:400]) > 60
+
+
+def test_a_step_by_hand_is_drawn_with_its_way_and_said_to_be_one() -> None:
+    moved = {"from": {"pose": {"x": 1, "y": 2, "yaw": 0}}, "to": {"pose": {"x": 30, "y": 2, "yaw": 0}}}
+    lens = Operation(id="1", primitive="operator", component="lens", arguments=moved, reason=Reason(kind="operator"))
+    flip = replace(lens, id="2", component="flip", arguments={"tunable": "flipped", "from": "up", "to": "down"})
+    plan: Any = SimpleNamespace(operations=(lens, flip), changes=())
+    first, second = steps(plan)
+    assert first.words == "by hand, (1, 2, 0°) → (30, 2, 0°)" and first.goal == Pose(30, 2, 0)
+    assert second.words == "by hand, up → down"

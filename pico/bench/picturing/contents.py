@@ -73,14 +73,17 @@ def steps(plan: Plan) -> tuple[DrawnStep, ...]:
 
 def _step(number: int, op: Operation, plan: Plan) -> DrawnStep:
     before, after, tunable = (op.arguments.get(word) for word in ("from", "to", "tunable"))
-    if op.kind.carries and isinstance(before, Mapping) and isinstance(after, Mapping):
-        words = f"{_place(before)} → {_place(after)}"
+    hand = "by hand, " if op.kind.by_hand else ""
+    if (op.kind.carries or hand) and isinstance(before, Mapping) and isinstance(after, Mapping):
+        words = f"{hand}{_place(before)} → {_place(after)}"
         return DrawnStep(number, op.component, words, op.component, Pose(**before["pose"]), Pose(**after["pose"]))
     if tunable is None:
         return DrawnStep(number, op.component, op.primitive)
     change = next((c for c in plan.changes if (c.component, c.tunable) == (op.component, tunable)), None)
     said = change.text if change and op.reason.kind != "interlock" else f"{show_value(before)} → {show_value(after)}"
-    return DrawnStep(number, f"{op.component}.{tunable}", said if op.primitive == "set" else op.primitive)
+    return DrawnStep(
+        number, f"{op.component}.{tunable}", f"{hand}{said}" if op.primitive == "set" or hand else op.primitive
+    )
 
 
 def differences(setup: Setup, a: LabState, b: LabState, changes: Sequence[Change]) -> tuple[DrawnStep, ...]:
