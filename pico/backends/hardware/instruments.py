@@ -206,9 +206,10 @@ def require_whole(setup: Setup, entries: Mapping[str, DeviceEntry], kinds: Mappi
             missing.append(f"no driver for the gripper of {name}, without which it holds nothing")
     over = sorted(name for name, camera in setup.lab.cameras.items() if camera.robot is None)
     eyes = [name for name in over if {("camera", name), ("depth camera", name)} & has]
-    if not eyes:
-        missing.append("no driver for cameras, so where the components stand is not seen")
-    elif set(over) - set(eyes):
+    loose = sorted(name for name in setup.lab.inventory if setup.loose(name))
+    if not eyes and loose:
+        missing.append(f"no driver for a camera over the table, so it is not seen where {', '.join(loose[:5])} stand")
+    elif eyes and set(over) - set(eyes):
         missing.append(f"no driver for the camera {', '.join(sorted(set(over) - set(eyes)))}")
     if not entries and (motors := _driven(setup)):
         missing.append(f"no driver for {', '.join(motors)}")
