@@ -47,7 +47,7 @@ def turned(kind: Tunable, start: Value | None, goal: Value, draw: random.Random)
             break
         at = _nearer(at, float(goal), kind.resolution or 0.0, draw)
     low, high = kind.range or (at, at)
-    return min(max(at, low), high)
+    return float(min(max(at, low), high))
 
 
 def _nearer(at: float, goal: float, finest: float, draw: random.Random) -> float:
