@@ -1,4 +1,5 @@
-"""Between which values a plan drives the angles of mirrors while light may be on: for the beam audit up to class 3R."""
+"""Between which values a plan drives the angles of mirrors, by motors or by hand, while light may be on: for the beam
+audit up to class 3R."""
 
 from __future__ import annotations
 
@@ -52,7 +53,7 @@ def driven_in_light(
             steered |= set(lit) if any(one in kinds for one in ANGLES) else set()
             for one in (t for t in ANGLES if t in kinds):
                 widen(op.component, one, None)
-        elif op.primitive == "set" and lit and tunable in ANGLES and tunable in kinds:
+        elif op.primitive in ("set", "operator") and lit and tunable in ANGLES and tunable in kinds:
             live = seen.components[op.component].values.get(tunable) if op.component in seen.components else None
             widen(
                 op.component, tunable, op.arguments.get("to"), live.value if live and live.status == "known" else None

@@ -382,6 +382,7 @@ def test_a_laser_that_shines_only_at_first_or_only_later_counts_while_parts_are_
 ANGLE = Tunable(unit="mrad", range=(-70.0, 70.0), mover="motor", tolerance=0.05)
 STEERING = with_type(SETUP, "holder", tunables={"tip": ANGLE, "tilt": ANGLE, "angle": ANGLE})
 TURN = set_to("holder", "tip", 3.0)
+BY_HAND = replace(TURN, primitive="operator")
 HOME = Operation(id="op1", primitive="home", component="holder", reason=Reason(kind="asked"))
 LATE = replace(set_to("laser", "shutter", "open", "op2"), after=("op1",))
 SHUT: Mapping[str, Any] = {**LIT, "shutter": "closed"}
@@ -404,6 +405,8 @@ WHOLE = (-70.0, 70.0)
         ((set_to("holder", "angle", 3.0),), LIT, 1.0, {}),
         ((HOME,), LIT, 1.0, {"tip": WHOLE, "tilt": WHOLE}),
         ((HOME,), SHUT, 1.0, {}),
+        ((BY_HAND,), LIT, 1.0, {"tip": (1.0, 3.0)}),
+        ((BY_HAND,), SHUT, 1.0, {}),
         ((search({"holder.tip": (-4, 4)}),), LIT, 1.0, {"tip": (-4.0, 4.0)}),
         ((search({"holder.tip": None}, "teleoperate"),), LIT, 1.0, {"tip": WHOLE}),
         ((search({"holder.angle": (-4, 4)}),), LIT, 1.0, {}),
@@ -420,7 +423,7 @@ def test_up_to_class_3r_what_is_driven_in_light_spans_what_it_passes(
 @pytest.mark.parametrize(("power", "opened"), [(0.9, {"laser"}), (4.0, {"laser"}), (STRONGEST, set())])
 def test_who_drives_a_mirror_in_light_answers_for_that_laser_up_to_class_3r(power: float, opened: set[str]) -> None:
     """Above, a mirror counts over its full range when the laser is opened."""
-    for one in (TURN, HOME):
+    for one in (TURN, HOME, BY_HAND):
         seen = observed(laser={**LIT, "power": power}, holder={"tip": 1.0, "tilt": 0.0})
         assert lit_by(STEERING, plan(one), seen).opened == opened
         assert not lit_by(STEERING, plan(one), observed(holder={"tip": 1.0, "tilt": 0.0})).opened
