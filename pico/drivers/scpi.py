@@ -132,7 +132,7 @@ def _not_in_watts(link: Questions, entry: DeviceEntry) -> str | None:
     said = link.ask_if_known(f"{_UNIT}?")
     if said is None:
         if entry.settings.get("error_queue", True):
-            link.failure()  # it notes that it does not know it, which is no error of the reading
+            link.failure()  # a meter without this command queues an error, which does not concern the reading
         return None
     if said.strip().upper() == "DBM":
         link.tell(f"{_UNIT} W")

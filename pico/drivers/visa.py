@@ -110,7 +110,7 @@ def queue_of(ask: Callable[[str], str], first_ask: Callable[[str], str] | None =
 
 def ask_if_known(resource: Any, ask: Callable[[str], str], question: str) -> str | None:
     """Return the reply of a PyVISA resource to a question that it may not know, None if it does not answer in time;
-    what it answers later is no answer to another question, since that has another form. Raises what PyVISA raises."""
+    a late reply cannot be taken for that to another question, which has another form. Raises what PyVISA raises."""
     from pyvisa.constants import StatusCode
     from pyvisa.errors import VisaIOError
 

@@ -23,7 +23,7 @@ _TILES = 24
 _UNEVEN = 4.0
 """Standard deviations by which the scatter of tiles must exceed what noise makes."""
 _TILE = 4
-"""Blocks of a side of the tiles from which a curvature is told."""
+"""How many blocks wide and high the tiles are from which a curvature is found."""
 _CURVED = 30.0
 """Chi-square of the three curvatures from which noise does not explain them: one flat background in a million."""
 _ALL = slice(None)

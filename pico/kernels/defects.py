@@ -123,7 +123,7 @@ def replacements(values: NDArray[Any], places: Places, dark: NDArray[Any] | None
         around -= _neighbors(dark, rows, columns)
     h, w = values.shape
     bad = np.zeros((h + 2, w + 2), bool)
-    bad[[0, -1]] = bad[:, [0, -1]] = True  # beyond an edge there is no neighbor
+    bad[[0, -1]] = bad[:, [0, -1]] = True  # a pixel at an edge has no neighbor there
     bad[rows + 1, columns + 1] = True
     good = np.array([~bad[rows + 1 + down, columns + 1 + right] for down, right in _AROUND]).reshape(8, len(rows))
     pairs, whole = (around + around[::-1])[:4] / 2, (good & good[::-1])[:4]

@@ -30,8 +30,8 @@ LIT = 0.3
 
 @dataclass(frozen=True, eq=False)
 class Rounding:
-    """The levels [count] that a background may have within a count; whether its level is another one elsewhere in the
-    beam; and `variance` [count^2] and electrons a count, by which noise spreads."""
+    """The fractions of a count at which the background may lie (`levels`); whether that varies across the beam
+    (`uneven`); and `variance` [count^2] and electrons a count, by which noise spreads."""
 
     levels: Array
     uneven: bool

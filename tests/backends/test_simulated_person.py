@@ -38,14 +38,14 @@ def test_without_a_tolerance_to_look_for_a_hand_scatters_as_stated() -> None:
 @given(NUMBERS, NUMBERS, st.floats(0.01, 5), st.integers())
 def test_a_screw_is_turned_until_it_reads_what_it_should(start: float, goal: float, within: float, seed: int) -> None:
     kind = Tunable(unit="mrad", range=(-500, 500), tolerance=within, mover="person")
-    found = hands.turned(kind, start, goal, random.Random(seed))
+    found = hands.turn(kind, start, goal, random.Random(seed))
     assert isinstance(found, float) and abs(found - goal) <= within and -500 <= found <= 500
 
 
 @pytest.mark.parametrize(("datatype", "goal"), [("bool", True), ("choice", "up")])
 def test_what_has_no_scale_is_set_exactly(datatype: Any, goal: Any) -> None:
     kind = Tunable(datatype=datatype, choices=("up", "down") if datatype == "choice" else (), mover="person")
-    assert hands.turned(kind, None, goal, random.Random(1)) == goal
+    assert hands.turn(kind, None, goal, random.Random(1)) == goal
 
 
 def bench_of_hands(folder: Path) -> Path:

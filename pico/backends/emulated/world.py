@@ -52,8 +52,8 @@ NEVER: Mapping[str, tuple[float, float]] = MappingProxyType({})
 
 
 class EmulatedWorld:
-    """The world of the bench at `place`. Its clock goes on at `pace` times the wall's; `people` come and go by it,
-    and safety inputs are `unsafe`, by device, from and until [s]. Called from any thread."""
+    """The world of the bench at `place`. Its clock runs `pace` times as fast as the wall clock. On it `people`
+    come and go, and safety inputs (by device) read `unsafe` from one time until another [s]. Called from any thread."""
 
     def __init__(
         self, setup: Setup, place: BenchPlace, pace: float = 1.0, wall: Callable[[], float] = time.monotonic,

@@ -117,7 +117,7 @@ class Lights(Told):
 
         def now(ends: tuple[LightEnd, ...]) -> Ended:
             known = {one.laser for one in ends}
-            before = notes.read(self._place)  # it may name a laser that a guard watched, and the files have no more
+            before = notes.read(self._place)  # it may name a laser that was since removed from the files
             watched = {name for one in (before.killed, before.watch) if one is not None for name in one.lasers}
             names = sorted({*lasers_of(self._setup), *watched} - known)
             loose = (LightEnd(laser=name, closings=()) for name in names)

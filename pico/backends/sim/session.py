@@ -406,7 +406,7 @@ class WorldSession:
             tunable, kind = checks.setpoint(self._setup, operation)
             goal = checks.require_value(name, tunable, kind, operation.arguments.get("to"))
             live = self._world.components[name].values[tunable]
-            value = hands.turned(kind, None if live.status == "unknown" else live.value, goal, draw)
+            value = hands.turn(kind, None if live.status == "unknown" else live.value, goal, draw)
             self._world = self._world.with_value(name, tunable, ObservedValue(value=value))
             return {"value": value, "by": "hand"}
         _, goal_pose, slot = checks.places(operation)

@@ -65,7 +65,7 @@ def arm_of(at: AtTable, robot: str, known: Calibration) -> tuple[FoundArm, Prove
         f"{robot} goes to {len(paths)} postures with the board in its hand and parks between them, its tool at "
         f"{speed:g} mm/s at most. It reckons with what stands on the table, but not with the board."
     )
-    question = "Is the table empty where the arm reaches, nobody in reach, and a hand on the hard-wired stop?"
+    question = "Is the table empty where the arm reaches, everyone out of reach, and a hand on the hard-wired stop?"
     if not at.asks.confirm(question, by_person=True):
         raise Stopped
     at.require_dark("an arm that moves")

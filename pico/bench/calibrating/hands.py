@@ -68,7 +68,7 @@ def hand_of(
         lies = _lies(at, over)
         speed = FIRST_SPEED if robot in at.wait(at.device.untried()) else NEAR
         at.asks.say(f"{robot} looks at the board from {len(paths)} postures, its tool at {speed:g} mm/s at most.")
-        question = "Is the table empty but for the board, nobody in reach, and a hand on the hard-wired stop?"
+        question = "Is the table empty except for the board, everyone out of reach, and a hand on the hard-wired stop?"
         if not at.asks.confirm(question, by_person=True):
             raise Stopped
         seen = at.wait(_glances(at, name, robot, home, paths, speed, arm))

@@ -67,9 +67,13 @@ def standing_by_file(bench: Bench) -> Standing | None:
     report = read(place.root, kind)
     of_then, known = report.basis if report else Basis(wired="", bench=""), calibration_digest(place.root, kind) or ""
     why = why_not(report, kind, of_then, clock.now(), known)
+    return _standing(kind, report, why)
+
+
+def _standing(name: Literal["hardware", "emulated"], report: Commissioning | None, why: tuple[str, ...]) -> Standing:
     ends = until(report) if report else None
     said = clock.as_text(ends) if ends else ""
-    return Standing(bench=kind, file=FILES[kind], report=report, why=why, until=said)
+    return Standing(bench=name, file=FILES[name], report=report, why=why, until=said)
 
 
 class Walk:
@@ -102,9 +106,7 @@ class Walk:
             more = f" ({len(exc.diagnostics)} in all)" if len(exc.diagnostics) > 1 else ""
             known = why_not(report, self.name, of_then, self.edge.now(), self._calibration())
             why = (*known, f"{exc.diagnostics[0].summary}{more}")
-        ends = until(report) if report else None
-        said = clock.as_text(ends) if ends else ""
-        return Standing(bench=self.name, file=FILES[self.name], report=report, why=why, until=said)
+        return _standing(self.name, report, why)
 
     def todo(self) -> tuple[Step, ...]:
         """Return the steps that are still to be done, or again."""

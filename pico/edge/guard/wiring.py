@@ -1,6 +1,6 @@
-"""How a real bench is wired: by the files of its folder, as they are when its edge starts. It is no part of the Lab
-that a bench keeps, so that a safety input that is added counts at once; and an edge that has been at work
-since before lets no more light out."""
+"""The wiring of a real bench: read from the files of its folder each time its edge starts, and not kept with the Lab
+that the bench adopts, so that a new safety input counts at once. An edge that started before the files changed lets no
+more light out."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ def put(goal: Pose, tolerance: PoseTolerance, draw: random.Random) -> Pose:
     return at
 
 
-def turned(kind: Tunable, start: Value | None, goal: Value, draw: random.Random) -> Value:
+def turn(kind: Tunable, start: Value | None, goal: Value, draw: random.Random) -> Value:
     """Return what a tunable reads once a person has set it to `goal`, from `start` (None if it could not be read)."""
     if kind.datatype != "float" or not isinstance(goal, int | float) or isinstance(goal, bool):
         return goal
